@@ -1,0 +1,28 @@
+// Ends a step for the friction anchor of a vertex.
+//     L = mu N;   off contact (L = 0) the anchor goes with the vertex; beyond the stick distance r it is drawn along:
+//     anchor = x - w r / q,   w = (I - n n^T)(x - anchor),  q = |w|
+// Source: see terms/friction.h.
+#pragma once
+#include "../terms/body_contact.h"
+
+typedef struct {
+    body_contact_args contact;
+    GLOBAL const real* RESTRICT friction;
+    GLOBAL real* RESTRICT anchor;
+    GLOBAL real* RESTRICT limit;
+    real stick_distance;
+} settle_friction_args;
+
+KERNEL_FN void settle_friction_vertex(int vertex, const settle_friction_args* a)
+{
+    int vs = a->contact.size.vertex_stride;
+    vec3 n = load3(a->contact.contact_normal, vs, vertex), x = load3(a->contact.pos, vs, vertex);
+    real limit = a->friction[vertex] * body_contact_pressure_force(vertex, &a->contact);
+    vec3 d = x - load3(a->anchor, vs, vertex);
+    vec3 w = d - dot(n, d) * n;
+    real q = length(w);
+    // A vertex that has just come into contact sticks where it is.
+    vec3 anchor = a->limit[vertex] > REAL(0) ? x - (fmin(REAL(1), a->stick_distance / fmax(q, REAL(1e-30)))) * w : x;
+    a->limit[vertex] = limit;
+    store3(a->anchor, vs, vertex, limit > REAL(0) ? anchor : x);
+}

@@ -1,0 +1,55 @@
+// Turns a term's two lists, <term>_PARAMS and <term>_FIELDS, into the argument struct of its functions.
+#pragma once
+#include "portable.h"
+
+// Kinds of items: each has a count and a padded stride.
+#define ITEM_KINDS(KIND) \
+    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(material) KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot)
+
+// Kinds whose items join several vertices, with the number of corners: their forces are gathered at vertices.
+#define ELEMENT_KINDS(KIND) KIND(face, 3) KIND(hinge, 4) KIND(stitch, 2)
+
+#define SIZE_MEMBERS(kind) int kind##_count, kind##_stride;
+typedef struct { ITEM_KINDS(SIZE_MEMBERS) } mesh_sizes;
+#undef SIZE_MEMBERS
+
+// What a stiffness function is asked for.
+typedef struct {
+    int projected;   // 1: cut off what could make the element matrix indefinite
+} stiffness_mode;
+
+#define FIELD(type, name, per, components, unit, meaning) typedef type name##_type;
+#include "fields.def"
+
+#define ARG_READ(name) GLOBAL const name##_type* RESTRICT name;
+#define ARG_ADD(name) GLOBAL name##_type* RESTRICT name;
+#define ARG_PARAM(name, initial, unit, meaning) real name;
+#define TERM_ARGS(term)                                   \
+    typedef struct {                                      \
+        mesh_sizes size;                                  \
+        stiffness_mode mode;                              \
+        term##_FIELDS(ARG_READ, ARG_ADD)                  \
+        term##_PARAMS(ARG_PARAM, ARG_PARAM)               \
+    } term##_args;
+
+// Position of block (a, b), a < b, in the stiffness slot of an element with `corners` vertices.
+KERNEL_FN int block_index(int corners, int a, int b)
+{
+    return a * (2 * corners - a - 1) / 2 + b - a - 1;
+}
+
+// The nine entries of a block stand together: the assembly of a matrix row reads whole blocks of scattered items
+// (planes of single entries made it 4 times slower).
+KERNEL_FN void add_block(GLOBAL block_real* slots, int stride, int item, int block, mat3 m)
+{
+    GLOBAL block_real* to = slots + 9 * (block * stride + item);
+    to[0] += (block_real)m.row0.x;
+    to[1] += (block_real)m.row0.y;
+    to[2] += (block_real)m.row0.z;
+    to[3] += (block_real)m.row1.x;
+    to[4] += (block_real)m.row1.y;
+    to[5] += (block_real)m.row1.z;
+    to[6] += (block_real)m.row2.x;
+    to[7] += (block_real)m.row2.y;
+    to[8] += (block_real)m.row2.z;
+}
