@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+/// One flat piece of the cloth: a run of vertices and faces.
+struct ClothPanel {
+    std::string name;
+    std::string fabric;             ///< Key into Scene::fabrics.
+    int first_vertex = 0, vertex_count = 0;
+    int first_face = 0, face_count = 0;
+    double rest_area = 0;           ///< Of the exact outline's triangulation [m^2].
+    double rest_boundary = 0;       ///< Length of its boundary polygon [m].
+};
+
+/// The sampled vertices of one outline edge, from its start to its end.
+struct OutlineSamples {
+    int panel = 0, edge = 0;
+    std::vector<int> vertices;          ///< Cloth vertex indices, both corners included.
+    std::vector<double> parameters;     ///< Arc-length fraction in [0, 1], same length as `vertices`.
+    double length = 0;                  ///< Arc length of the exact curve [m].
+};
+
+/// Two outline edges sewn together; its pairs are a run of Cloth::seam_pairs.
+struct Seam {
+    int side_a = 0, side_b = 0;         ///< Indices into Cloth::outline.
+    int first_pair = 0, pair_count = 0;
+    double length_a = 0, length_b = 0;  ///< [m]; unequal for a gathered seam.
+};
+
+/// The flat, unsewn cloth and where it starts. Faces never share vertices across panels: seams join pairs later.
+struct Cloth {
+    std::vector<Vec2> panel_coordinates;              ///< Rest position in the panel's plane: (weft, warp) [m].
+    std::vector<Vec3> positions;                      ///< Start position in the scene [m].
+    std::vector<Face> faces;                          ///< Counter-clockwise in panel coordinates.
+    std::vector<ClothPanel> panels;
+    std::vector<OutlineSamples> outline;              ///< Every outline edge of every panel (garments).
+    std::vector<Seam> seams;
+    std::vector<std::array<int, 2>> seam_pairs;       ///< Vertices that are sewn to each other.
+    std::vector<int> pinned;                          ///< Held vertices, sorted.
+    std::vector<std::string> warnings;                ///< What was odd but could be used.
+};
+
+/// Linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.
+struct Transfer {
+    std::vector<int> offset;       ///< Fine vertex count + 1.
+    std::vector<int> column;       ///< Coarse vertex.
+    std::vector<double> weight;    ///< Non-negative; each row sums to 1.
+};
+
+}  // namespace selvage

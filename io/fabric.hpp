@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace selvage {
+
+/// A fabric's mechanical properties per unit width or area, as measured on the cloth, SI units.
+/// Stress in the membrane (second Piola-Kirchhoff, weft u and warp v, Green-Lagrange strain e):
+///     s_uu = weft e_uu + coupling e_vv,  s_vv = warp e_vv + coupling e_uu,  s_uv = shear (2 e_uv).
+struct Fabric {
+    std::string name;
+    double areal_density = 0.15;      ///< [kg/m^2]
+    double thickness = 0.0003;        ///< [m]
+    double stretch_weft = 300;        ///< Membrane stiffness along weft [N/m].
+    double stretch_warp = 300;        ///< Membrane stiffness along warp [N/m].
+    double stretch_coupling = 0;      ///< Coupling of weft and warp [N/m]; its square is below weft * warp.
+    double shear = 40;                ///< Shear stiffness [N/m] per radian of shear angle.
+    double bending_weft = 1e-5;       ///< Bending rigidity when bent along weft [N m], as KES-FB2 or ASTM D1388 measure it.
+    double bending_warp = 1e-5;       ///< Bending rigidity when bent along warp [N m].
+    double friction = 0.3;            ///< Coulomb coefficient against a body [1].
+    double damping = 0.5;             ///< Viscous drag per unit mass [1/s].
+    std::string source;               ///< Where the values come from, as shown to the user.
+};
+
+/// Returns the names of the built-in fabrics, sorted.
+std::vector<std::string> fabric_preset_names();
+
+/// Returns a built-in fabric.
+/// @throws InputError naming the nearest preset if there is none of that name.
+Fabric fabric_preset(const std::string& name);
+
+/// Checks ranges and units.
+/// @param key  key path of the fabric's table, for messages
+/// @throws InputError naming the key, the value and the accepted range.
+void check_fabric(const Fabric& fabric, const std::string& file, const std::string& key);
+
+}  // namespace selvage

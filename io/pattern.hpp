@@ -1,0 +1,61 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+enum class EdgeCurve { straight, quadratic, cubic, arc };
+
+/// One edge of a panel's closed outline, from vertex `start` to vertex `end`.
+struct PatternEdge {
+    int start = 0;
+    int end = 0;
+    EdgeCurve curve = EdgeCurve::straight;
+    std::array<Vec2, 2> control{Vec2::Zero(), Vec2::Zero()};  ///< Bezier control points, panel coordinates [m].
+    double radius = 0;        ///< Arc radius [m]; arc only.
+    bool large_arc = false;   ///< As in an SVG path; arc only.
+    bool right = false;       ///< Sweep flag as in an SVG path; arc only.
+};
+
+/// Rolls the flat panel onto a cylinder before it is placed, without stretching it.
+struct PanelWrap {
+    double radius = 0;   ///< Cylinder radius [m]; the axis runs along the panel's y, above its line x = x0.
+    double x0 = 0;       ///< Panel x [m] that stays in place (touches the flat plane z = 0).
+    bool behind = false; ///< False: the cylinder bends towards -z (edges move to -z); true: towards +z.
+};
+
+/// A flat piece of cloth: outline in the panel's own plane and its place in the scene.
+/// A point (x, y) goes to rotation * roll(x, y) + translation, roll being (x, y, 0) without a wrap.
+struct PatternPanel {
+    std::string name;
+    std::vector<Vec2> vertices;       ///< Outline corners [m].
+    std::vector<PatternEdge> edges;   ///< A closed loop: edge k ends where edge k+1 starts.
+    Vec3 translation = Vec3::Zero();  ///< [m], in the scene's frame.
+    Mat3 rotation = Mat3::Identity();
+    std::optional<PanelWrap> wrap;
+    std::string fabric;               ///< Empty: the garment's fabric.
+};
+
+struct StitchSide {
+    int panel = 0;
+    int edge = 0;
+};
+
+/// A seam: two panel edges sewn together. They run in opposite directions unless `same_direction`.
+struct PatternStitch {
+    StitchSide a, b;
+    bool same_direction = false;
+};
+
+/// A garment pattern in metres, in the scene's frame (z up).
+struct Pattern {
+    std::string name;
+    std::vector<PatternPanel> panels;
+    std::vector<PatternStitch> stitches;
+    std::vector<std::string> warnings;   ///< What the reader found odd but could use.
+};
+
+}  // namespace selvage

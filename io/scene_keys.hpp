@@ -1,0 +1,135 @@
+#pragma once
+// Every key of a scene file, declared once: the scene's structs, their defaults, the reader, its range checks
+// and `selvage schema` all come from these lists.
+//     KEY(type, name, default, unit, low, high, meaning)    a number or a flag in [low, high]
+//     WORD(name, default, choices, meaning)                  one of the words in `choices`, separated by |; "" = any text
+//     VEC3(name, x, y, z, unit, meaning)                     three numbers
+// A default of `automatic` means: not given, chosen by the program.
+
+#define GARMENT_KEYS(KEY, WORD, VEC3)                                                                            \
+    WORD(pattern, "", "", "pattern file (GarmentCode JSON), or a built-in pattern as builtin:tshirt")            \
+    KEY(double, resolution, 0.01, "m", 1e-4, 0.2, "target edge length of the triangles")                         \
+    WORD(fabric, "cotton", "", "fabric of all panels: a preset's name or a [fabric.NAME] table")                 \
+    WORD(size, "M", "S|M|L", "size of a built-in pattern")                                                       \
+    WORD(up_axis, "auto", "auto|x|y|z", "up direction of the pattern file; auto: y for GarmentCode JSON")        \
+    WORD(rotation_order, "xyz", "xyz|zyx|yxz|yzx|zxy|xzy",                                                       \
+         "order in which a GarmentCode panel's rotations are applied; xyz means R = Rz Ry Rx")                   \
+    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")
+
+#define SHEET_KEYS(KEY, WORD, VEC3)                                                                              \
+    WORD(shape, "rectangle", "rectangle|disc|mesh", "outline of the sheet")                                      \
+    WORD(mesh, "", "", "OBJ file of the sheet (shape = mesh); texture coordinates give its rest shape, in metres") \
+    KEY(double, width, 1, "m", 1e-3, 100, "extent along weft (rectangle)")                                       \
+    KEY(double, height, 1, "m", 1e-3, 100, "extent along warp (rectangle)")                                      \
+    KEY(double, radius, 0.15, "m", 1e-3, 100, "radius (disc)")                                                   \
+    KEY(int, resolution, 65, "1", 2, 4097, "vertices per side; across the diameter for a disc")                  \
+    WORD(mesh_family, "alternating", "alternating|same_diagonal|irregular", "how a rectangle is triangulated")   \
+    WORD(fabric, "cotton", "", "a preset's name or a [fabric.NAME] table")                                       \
+    WORD(unit, "m", "m|cm|mm|inch", "length unit of the mesh file")                                              \
+    WORD(up_axis, "z", "x|y|z", "up direction of the mesh file")                                                 \
+    VEC3(center, 0, 0, 1, "m", "where the middle of the sheet starts")                                           \
+    VEC3(rotation, 0, 0, 0, "degrees", "turns about x, then y, then z; without them the sheet lies flat")
+
+#define BODY_KEYS(KEY, WORD, VEC3)                                                                               \
+    WORD(name, "", "", "name in messages and in body.obj")                                                       \
+    WORD(shape, "mesh", "mesh|mannequin|sphere|plane|capsule|cylinder", "kind of body")                          \
+    WORD(mesh, "", "", "OBJ file (shape = mesh)")                                                                \
+    WORD(unit, "m", "m|cm|mm|inch", "length unit of the mesh file")                                              \
+    WORD(up_axis, "z", "x|y|z", "up direction of the mesh file")                                                 \
+    VEC3(center, 0, 0, 0, "m", "centre (sphere, cylinder), a point (plane), first end (capsule), shift (mesh, mannequin)") \
+    VEC3(end, 0, 0, 1, "m", "second end (capsule)")                                                              \
+    VEC3(normal, 0, 0, 1, "1", "upward normal (plane)")                                                          \
+    VEC3(rotation, 0, 0, 0, "degrees", "turns about x, then y, then z (mesh, mannequin)")                        \
+    KEY(double, scale, 1, "1", 1e-4, 1e4, "scales the mesh")                                                     \
+    KEY(double, radius, 0.25, "m", 1e-4, 100, "radius (sphere, capsule, cylinder)")                              \
+    KEY(double, height, 0.1, "m", 1e-4, 100, "height of an upright cylinder")                                    \
+    KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient; automatic: the fabric's")                 \
+    WORD(size, "M", "S|M|L", "mannequin size; single measurements below override it")                            \
+    KEY(double, stature, automatic, "m", 0.8, 2.5, "mannequin: body height")                                     \
+    KEY(double, bust, automatic, "m", 0.4, 2, "mannequin: bust girth")                                           \
+    KEY(double, waist, automatic, "m", 0.3, 2, "mannequin: waist girth")                                         \
+    KEY(double, hips, automatic, "m", 0.4, 2, "mannequin: hip girth")                                            \
+    KEY(double, shoulder_width, automatic, "m", 0.2, 0.8, "mannequin: shoulder to shoulder")                     \
+    KEY(double, neck, automatic, "m", 0.2, 0.8, "mannequin: neck girth")                                         \
+    KEY(double, arm_length, automatic, "m", 0.3, 1.2, "mannequin: shoulder to wrist")                            \
+    KEY(double, arm_angle, automatic, "degrees", 0, 90, "mannequin: arm below the horizontal; 90 hangs down")
+
+#define FABRIC_KEYS(KEY, WORD)                                                                                   \
+    WORD(base, "", "", "preset whose values are used where this table is silent")                                \
+    KEY(double, areal_density, automatic, "kg/m^2", 0.005, 5, "mass per area")                                   \
+    KEY(double, thickness, automatic, "m", 1e-5, 0.02, "thickness")                                              \
+    KEY(double, stretch_weft, automatic, "N/m", 0.1, 1e7, "membrane stiffness along weft")                       \
+    KEY(double, stretch_warp, automatic, "N/m", 0.1, 1e7, "membrane stiffness along warp")                       \
+    KEY(double, stretch_coupling, automatic, "N/m", 0, 1e7, "coupling of weft and warp")                         \
+    KEY(double, shear, automatic, "N/m", 0, 1e7, "shear stiffness per radian")                                   \
+    KEY(double, bending_weft, automatic, "N m", 0, 1, "bending rigidity along weft")                             \
+    KEY(double, bending_warp, automatic, "N m", 0, 1, "bending rigidity along warp")                             \
+    KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient against a body")                           \
+    KEY(double, damping, automatic, "1/s", 0, 1000, "viscous drag per unit mass")                                \
+    WORD(source, "", "", "where the values come from")
+
+#define SOLVER_KEYS(KEY, WORD, VEC3)                                                                             \
+    WORD(integrator, "implicit_euler", "implicit_euler|static", "how time is advanced")                          \
+    WORD(until, "equilibrium", "", "\"equilibrium\", or the simulated seconds to run")                           \
+    KEY(double, step, 0.02, "s", 1e-6, 1, "time step; it shrinks by itself where a step fails")                  \
+    KEY(double, tolerance, 1e-3, "1", 1e-9, 1, "equilibrium: net force over gravity force on free vertices")     \
+    KEY(double, energy_tolerance, 1e-4, "1", 0, 1, "sewing: relative change of elastic energy between steps at which it may stop") \
+    KEY(double, max_time, 30, "s", 0, 1e6, "simulated time after which a run to equilibrium gives up")           \
+    KEY(double, max_wall, 0, "s", 0, 1e7, "wall time after which the run is saved and ends; 0: no limit")        \
+    KEY(int, newton_iterations, 12, "1", 1, 1000, "Newton iterations per step before it is retried smaller")     \
+    KEY(int, linear_iterations, 600, "1", 1, 100000, "conjugate-gradient iterations per Newton iteration")       \
+    WORD(preconditioner, "auto", "auto|block_jacobi|multigrid", "preconditioner of the conjugate gradients; auto: multigrid where levels exist") \
+    WORD(precision, "double", "float|double", "precision of the linear solves; state and forces are always double") \
+    KEY(int, threads, 0, "1", 0, 1024, "worker threads; 0: all cores")                                           \
+    VEC3(gravity, 0, 0, -9.81, "m/s^2", "acceleration")                                                          \
+    KEY(double, frame_rate, 30, "1/s", 0.01, 10000, "frames written per simulated second")                       \
+    KEY(double, memory_limit, 0, "bytes", 0, 1e15, "refuse scenes that need more; 0: the machine's memory")
+
+#define CONTACT_KEYS(KEY, WORD, VEC3)                                                                            \
+    KEY(double, gap, 0.002, "m", 1e-5, 0.05, "distance from the body at which contact pressure sets in")         \
+    KEY(double, stiffness, automatic, "Pa", 1e-3, 1e9, "pressure scale of the contact barrier; automatic: 100 times the cloth's weight per area") \
+    KEY(bool, body, true, "1", 0, 1, "contact between cloth and bodies")
+
+#define MEMBRANE_KEYS(KEY, WORD, VEC3)                                                                           \
+    WORD(model, "orthotropic", "orthotropic|none", "in-plane model of the cloth")                                \
+    KEY(double, scale, 1, "1", 0, 1e6, "multiplies every membrane stiffness")
+
+#define BENDING_KEYS(KEY, WORD, VEC3)                                                                            \
+    WORD(model, "hinge", "hinge|none", "bending model of the cloth")                                             \
+    KEY(double, scale, 1, "1", 0, 1e6, "multiplies every bending rigidity")
+
+#define SEAMS_KEYS(KEY, WORD, VEC3)                                                                              \
+    KEY(double, stiffness, 400, "N/m", 1e-3, 1e7, "seam force per pair and metre of gap")                        \
+    KEY(double, force_limit, 0.2, "N", 1e-6, 1e4, "seam force of a pair that is far apart")                      \
+    KEY(double, closed, 0.002, "m", 1e-6, 0.1, "gap below which a pair counts as closed and is joined")          \
+    KEY(double, max_time, 6, "s", 0.01, 1e4, "simulated time after which sewing gives up")
+
+#define PINS_KEYS(KEY, WORD, VEC3)                                                                               \
+    WORD(sheet, "none", "none|corners|top_corners|top_edge|left_edge|two_rows",                                  \
+         "which vertices of a sheet are held; top is +warp, left is -weft, two_rows holds the first two columns at the left") \
+    WORD(vertices, "", "", "indices of further held vertices, separated by commas")
+
+#define WIND_KEYS(KEY, WORD, VEC3)                                                                               \
+    VEC3(velocity, 0, 0, 0, "m/s", "wind; zero: none")
+
+#define OUTPUT_KEYS(KEY, WORD, VEC3)                                                                             \
+    WORD(precision, "8um", "lossless|8um|60um", "grid to which written positions are rounded")                   \
+    KEY(bool, frames, true, "1", 0, 1, "write every frame; false: only the last one")                            \
+    KEY(bool, sewing, true, "1", 0, 1, "write the sewing phase to sewing.h5")                                    \
+    KEY(bool, picture, true, "1", 0, 1, "render preview.png")                                                    \
+    KEY(int, picture_width, 1600, "1", 64, 16384, "width of preview.png in pixels")                              \
+    KEY(int, picture_samples, 4, "1", 1, 64, "rays per pixel and side")                                          \
+    KEY(double, checkpoint_interval, 5, "s", 0, 1e6, "wall time between checkpoints")                            \
+    KEY(bool, keep_checkpoint, false, "1", 0, 1, "keep the checkpoint at a normal end")
+
+// Tables that appear once: TABLE(name, struct, keys, meaning)
+#define SCENE_TABLES(TABLE)                                                                                      \
+    TABLE(garment, GarmentScene, GARMENT_KEYS, "a garment sewn from a pattern")                                  \
+    TABLE(solver, SolverScene, SOLVER_KEYS, "how and how long the motion is computed")                           \
+    TABLE(contact, ContactScene, CONTACT_KEYS, "contact between cloth and bodies")                               \
+    TABLE(membrane, MembraneScene, MEMBRANE_KEYS, "in-plane elasticity")                                         \
+    TABLE(bending, BendingScene, BENDING_KEYS, "bending elasticity")                                             \
+    TABLE(seams, SeamsScene, SEAMS_KEYS, "how panels are sewn together")                                         \
+    TABLE(pins, PinsScene, PINS_KEYS, "which vertices are held in place")                                        \
+    TABLE(wind, WindScene, WIND_KEYS, "moving air")                                                              \
+    TABLE(output, OutputScene, OUTPUT_KEYS, "what is written")
