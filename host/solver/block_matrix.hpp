@@ -1,0 +1,74 @@
+#pragma once
+// Part of linear_device.cpp, which is built once per precision of `linear`: nothing here has external linkage.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "host/solver/launch.hpp"
+#include "host/solver/linear_solver.hpp"
+#include "kernels/stages/assemble_row.h"
+#include "kernels/stages/block_rows.h"
+
+namespace selvage {
+namespace {
+
+using LinearVector = std::vector<linear>;
+
+/// Sparse matrix of 3x3 blocks; vectors hold xyz of one vertex together.
+struct BlockMatrix {
+    std::vector<int> row_begin, column;
+    LinearVector block;
+
+    int rows() const { return int(row_begin.size()) - 1; }
+    std::size_t bytes() const { return block.size() * sizeof(linear) + (row_begin.size() + column.size()) * sizeof(int); }
+
+    /// y = A x.
+    void multiply(const LinearVector& x, LinearVector& y) const
+    {
+        launch<block_row_product>(rows(),
+                                  block_rows_args{row_begin.data(), column.data(), block.data(), x.data(), y.data()});
+    }
+
+    /// The position of block (row, row).
+    int diagonal(int row) const
+    {
+        return int(std::lower_bound(column.begin() + row_begin[row], column.begin() + row_begin[row + 1], row) -
+                   column.begin());
+    }
+};
+
+double dot(const LinearVector& a, const LinearVector& b)
+{
+    return sum_items(int(a.size()), [x = a.data(), y = b.data()](int i) { return double(x[i]) * double(y[i]); });
+}
+
+/// Inverse of the diagonal blocks.
+class BlockJacobi {
+public:
+    void build(const BlockMatrix& matrix)
+    {
+        inverse_.resize(9 * std::size_t(matrix.rows()));
+        for_each_item(matrix.rows(), [this, &matrix](int row) {
+            using Block = Eigen::Matrix<linear, 3, 3, Eigen::RowMajor>;
+            const Eigen::Map<const Block> source(matrix.block.data() + 9 * matrix.diagonal(row));
+            Eigen::Matrix3d m = source.cast<double>();
+            // A vertex that nothing holds yet would give a singular block.
+            m.diagonal().array() += 1e-9 * m.trace() + 1e-300;
+            Eigen::Map<Block>(inverse_.data() + 9 * std::size_t(row)) = m.inverse().cast<linear>();
+        });
+    }
+    /// z = D^-1 r.
+    void apply(const LinearVector& r, LinearVector& z) const
+    {
+        launch<block_diagonal_product>(int(r.size() / 3), block_diagonal_args{inverse_.data(), r.data(), z.data()});
+    }
+    std::size_t bytes() const { return inverse_.size() * sizeof(linear); }
+
+private:
+    LinearVector inverse_;
+};
+
+}  // namespace
+}  // namespace selvage

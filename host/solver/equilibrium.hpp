@@ -1,0 +1,30 @@
+#pragma once
+#include "host/solver/step_control.hpp"
+
+namespace selvage {
+
+struct EquilibriumOptions {
+    double step = 0.02;          ///< [s]
+    double tolerance = 1e-3;     ///< Relative static force residual to reach [1].
+    double max_time = 30;        ///< Simulated time after which to give up [s].
+    int newton_iterations = 12;
+    bool statics_only = false;   ///< No motion at all: Newton's method on the static energy from the start.
+};
+
+/// Where a drape stands; kept in checkpoints.
+struct DrapeProgress {
+    double time = 0;             ///< [s]
+    double switch_residual = 0.5; ///< Below it the static energy is minimised; lowered when that came too early.
+    int hold = 0;                ///< Steps to take before the next attempt.
+};
+
+/// Lets the cloth fall with implicit steps, which are dissipative, and finishes with Newton's method on the static
+/// energy as soon as the forces are nearly balanced.
+PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
+                              const AfterStep& after_step);
+
+/// Moves the cloth accurately through time up to `until` [s]: every step's Newton iterations reach their tolerance.
+PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double until, double frame_interval,
+                     DrapeProgress& progress, const AfterStep& after_step);
+
+}  // namespace selvage

@@ -1,0 +1,50 @@
+#include "host/solver/fabric_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/solver/launch.hpp"
+
+namespace selvage {
+
+FabricContact::FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology,
+                             const Cloth& cloth, const FabricTable& fabrics, double gap, double margin)
+    : query_(query), fabric_friction_(std::size_t(topology.particle_count), 0.0),
+      body_of_vertex_(std::size_t(topology.particle_count), -1), gap_(gap), margin_(margin)
+{
+    for (const Body& body : bodies) body_friction_.push_back(body.friction);
+    for (const ClothPanel& panel : cloth.panels) {
+        const double friction = fabrics.at(panel.fabric).friction;
+        for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v) {
+            double& of_particle = fabric_friction_[topology.particle_of[v]];
+            of_particle = std::max(of_particle, friction);
+        }
+    }
+}
+
+void FabricContact::update(State& state)
+{
+    const int count = state.size.vertex_count, vs = state.size.vertex_stride;
+    query_.nearest(state.pos.data(), vs, count, search_radius(),
+                   {vs, state.contact_normal.data(), state.contact_offset.data(), body_of_vertex_.data()});
+    contact_count_ = int(sum_items(count, [&state, vs, gap = gap_](int v) {
+        double along = -state.contact_offset[v];
+        for (int c = 0; c < 3; ++c) along += state.contact_normal[c * vs + v] * state.pos[c * vs + v];
+        return along < gap ? 1.0 : 0.0;
+    }));
+    if (state.contact_friction.empty()) return;
+    for_each_item(count, [this, &state](int v) {
+        const int body = body_of_vertex_[v];
+        const bool own = body >= 0 && !std::isnan(body_friction_[body]);
+        state.contact_friction[v] = own ? body_friction_[body] : fabric_friction_[v];
+    });
+}
+
+bool FabricContact::crossed(const State& state, const std::vector<real>& from)
+{
+    const std::vector<BodyCrossing> crossings =
+        query_.crossings(from.data(), state.pos.data(), state.size.vertex_stride, state.size.vertex_count);
+    return std::any_of(crossings.begin(), crossings.end(), [](const BodyCrossing& c) { return c.body >= 0; });
+}
+
+}  // namespace selvage

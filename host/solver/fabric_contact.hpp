@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include "host/collision/body_query.hpp"
+#include "host/solver/body_contact.hpp"
+#include "host/solver/topology.hpp"
+
+namespace selvage {
+
+/// Contact of the particles with the scene's bodies: the queries of BodyQuery written into the state's fields.
+class FabricContact final : public ContactField {
+public:
+    /// @param gap      distance at which contact sets in [m]
+    /// @param margin   further distance within which a vertex already knows its surface [m]
+    FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology, const Cloth& cloth,
+                  const FabricTable& fabrics, double gap, double margin);
+
+    void update(State& state) override;
+    bool crossed(const State& state, const std::vector<real>& from) override;
+    double search_radius() const override { return gap_ + margin_; }
+    int contact_count() const override { return contact_count_; }
+
+private:
+    BodyQuery& query_;
+    std::vector<double> body_friction_;     ///< Per body; NaN: the fabric's.
+    std::vector<double> fabric_friction_;   ///< Per particle: the largest of its panels'.
+    std::vector<int> body_of_vertex_;
+    double gap_, margin_;
+    int contact_count_ = 0;
+};
+
+}  // namespace selvage

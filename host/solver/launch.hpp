@@ -1,0 +1,74 @@
+#pragma once
+#include <functional>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+// Promises the compiler what every kernel guarantees: no item reads what another item writes.
+#ifdef __clang__
+    #define INDEPENDENT_ITEMS _Pragma("clang loop vectorize(assume_safety)")
+#else
+    #define INDEPENDENT_ITEMS _Pragma("GCC ivdep")
+#endif
+
+namespace selvage {
+
+/// Items of one task: small enough to balance, large enough to hide the task's cost.
+constexpr int items_per_task = 1024;
+
+/// Runs `body(item)` for every item in [0, count) on the TBB threads.
+template <class Body>
+void for_each_item(int count, const Body& body)
+{
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, items_per_task), [body](const auto& range) {
+        const int end = range.end();
+        INDEPENDENT_ITEMS
+        for (int item = range.begin(); item < end; ++item) body(item);
+    });
+}
+
+/// Runs `Kernel(item, &args)` for every item in [0, count) on the TBB threads.
+/// A kernel writes only to its own item, so items run in any order, in parallel and in SIMD lanes.
+/// `args` is copied into each task, where the compiler can keep it in registers.
+template <auto Kernel, class Args>
+void launch(int count, const Args& args)
+{
+    for_each_item(count, [args](int item) { Kernel(item, &args); });
+}
+
+/// Returns the sum of `body(item)` over [0, count), accumulated in double precision.
+/// The items are split the same way whatever the thread count, so the result is reproducible.
+template <class Body>
+double sum_items(int count, const Body& body)
+{
+    return tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<int>(0, count, items_per_task), 0.0,
+        [body](const auto& range, double sum) {
+            for (int item = range.begin(); item < range.end(); ++item) sum += body(item);
+            return sum;
+        },
+        std::plus<>{});
+}
+
+/// Returns the sum of `Kernel(item, &args)` over [0, count); see sum_items.
+template <auto Kernel, class Args>
+double launch_sum(int count, const Args& args)
+{
+    return sum_items(count, [args](int item) { return double(Kernel(item, &args)); });
+}
+
+/// Returns the largest `body(item)` over [0, count), or 0 without items.
+template <class Body>
+double max_items(int count, const Body& body)
+{
+    return tbb::parallel_reduce(
+        tbb::blocked_range<int>(0, count, items_per_task), 0.0,
+        [body](const auto& range, double most) {
+            for (int item = range.begin(); item < range.end(); ++item) most = std::max(most, double(body(item)));
+            return most;
+        },
+        [](double a, double b) { return std::max(a, b); });
+}
+
+}  // namespace selvage

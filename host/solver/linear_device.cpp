@@ -1,0 +1,140 @@
+// The linear solver of the implicit steps. Built twice, with SELVAGE_LINEAR = float and double.
+#include "host/solver/linear_solver.hpp"
+
+#include <optional>
+
+#include "host/solver/block_matrix.hpp"
+#include "host/solver/multigrid.hpp"
+
+namespace selvage {
+namespace {
+
+class ConjugateGradients final : public LinearSolver {
+public:
+    ConjugateGradients(const State& state, const LinearOptions& options, const ParticleTransfers& transfers)
+        : options_(options), pattern_(make_pattern(state)), stride_(state.size.vertex_stride)
+    {
+        matrix_.row_begin = pattern_.row_begin;
+        matrix_.column = pattern_.column;
+        matrix_.block.resize(9 * pattern_.column.size());
+        for (LinearVector* v : {&x_, &r_, &z_, &p_, &q_}) v->resize(3 * std::size_t(pattern_.rows()));
+        if (options.preconditioner != Preconditioner::multigrid || transfers.empty()) return;
+        std::vector<char> pinned(pattern_.rows());
+        for (int v = 0; v < pattern_.rows(); ++v) pinned[v] = state.inv_mass[v] == 0;
+        multigrid_.emplace(pattern_, pinned, transfers);
+    }
+
+    void assemble(const State& state, double inertia) override
+    {
+        const assemble_args args{pattern_.row_begin.data(), pattern_.column.data(), matrix_.block.data(),
+                                 state.mass.data(), state.inv_mass.data(),
+                                 state.vertex_stiffness.empty() ? nullptr : state.vertex_stiffness.data(),
+                                 state.size.vertex_stride, inertia};
+        const assemble_kind kinds[] = {
+#define KIND(kind, corner_count)                                                                                  \
+    {state.kind##_slots.data(), state.kind##_slot.data(), pattern_.kind##_place.data(),                           \
+     state.kind##_stiffness.empty() ? nullptr : state.kind##_stiffness.data(), corner_count, state.size.kind##_stride},
+            ELEMENT_KINDS(KIND)
+#undef KIND
+        };
+        for_each_item(pattern_.rows(), [&args, &kinds](int row) {
+            assemble_clear(row, &args);
+            for (const assemble_kind& kind : kinds)
+                if (kind.stiffness) assemble_elements(row, &args, &kind);
+            assemble_finish(row, &args);
+        });
+        if (multigrid_)
+            multigrid_->build(matrix_);
+        else
+            jacobi_.build(matrix_);
+    }
+
+    LinearResult solve(const double* b, double tolerance, double* x) override
+    {
+        LinearResult result;
+        const int n = pattern_.rows(), stride = stride_;
+        const double scale = std::sqrt(sum_items(n, [=](int v) {
+            return b[v] * b[v] + b[stride + v] * b[stride + v] + b[2 * stride + v] * b[2 * stride + v];
+        }));
+        for_each_item(n, [=, r = r_.data(), y = x_.data()](int v) {
+            for (int c = 0; c < 3; ++c) {
+                r[3 * v + c] = linear(scale > 0 ? b[c * stride + v] / scale : 0);
+                y[3 * v + c] = 0;
+            }
+        });
+        result.relative_residual = scale > 0 ? 1 : 0;
+        if (scale > 0) iterate(tolerance, result);
+        for_each_item(n, [=, y = x_.data()](int v) {
+            for (int c = 0; c < 3; ++c) x[c * stride + v] = scale * double(y[3 * v + c]);
+        });
+        return result;
+    }
+
+    std::size_t bytes() const override
+    {
+        return matrix_.bytes() + jacobi_.bytes() + 5 * x_.size() * sizeof(linear) +
+               (multigrid_ ? multigrid_->bytes() : 0) +
+               (pattern_.face_place.size() + pattern_.hinge_place.size()) * sizeof(std::uint16_t);
+    }
+
+private:
+    void precondition()
+    {
+        if (multigrid_)
+            multigrid_->apply(matrix_, r_, z_);
+        else
+            jacobi_.apply(r_, z_);
+    }
+
+    void iterate(double tolerance, LinearResult& result)
+    {
+        const int size = int(x_.size());
+        linear *x = x_.data(), *r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
+        precondition();
+        p_ = z_;
+        double rz = dot(r_, z_);
+        while (result.iterations < options_.max_iterations) {
+            matrix_.multiply(p_, q_);
+            const double curvature = dot(p_, q_);
+            if (!(curvature > 0) || !(rz > 0)) {
+                result.negative_curvature = true;
+                if (result.iterations == 0) x_ = p_;   // a descent direction is better than none
+                return;
+            }
+            const linear step = linear(rz / curvature);
+            for_each_item(size, [=](int i) {
+                x[i] += step * p[i];
+                r[i] -= step * q[i];
+            });
+            ++result.iterations;
+            result.relative_residual = std::sqrt(dot(r_, r_));
+            if (result.relative_residual <= tolerance) return;
+            precondition();
+            const double next = dot(r_, z_);
+            const linear turn = linear(next / rz);
+            rz = next;
+            for_each_item(size, [=](int i) { p[i] = z[i] + turn * p[i]; });
+        }
+    }
+
+    LinearOptions options_;
+    BlockPattern pattern_;
+    int stride_;
+    BlockMatrix matrix_;
+    BlockJacobi jacobi_;
+    std::optional<Multigrid> multigrid_;
+    LinearVector x_, r_, z_, p_, q_;
+};
+
+}  // namespace
+
+#define JOIN_EXPANDED(a, b) a##b
+#define JOIN(a, b) JOIN_EXPANDED(a, b)
+std::unique_ptr<LinearSolver> JOIN(make_linear_solver_, SELVAGE_LINEAR)(const State& state,
+                                                                       const LinearOptions& options,
+                                                                       const ParticleTransfers& transfers)
+{
+    return std::make_unique<ConjugateGradients>(state, options, transfers);
+}
+
+}  // namespace selvage

@@ -1,0 +1,278 @@
+#pragma once
+// Part of linear_device.cpp, which is built once per precision of `linear`: nothing here has external linkage.
+#include <cstdint>
+
+#include "host/solver/block_matrix.hpp"
+
+namespace selvage {
+namespace {
+
+/// Multigrid V-cycle on a hierarchy of interpolations with Galerkin coarse matrices P^T A P, Chebyshev smoothing over
+/// block Jacobi, and a dense Cholesky solve at the coarsest level. Symmetric, so it preconditions conjugate gradients.
+/// Source: Tamstorf, Jones and McCormick 2015 for cloth; Adams and others 2003 for the smoother.
+class Multigrid {
+public:
+    /// @param finest  pattern of the finest matrix
+    /// @param pinned  per particle of the finest level: 1 if it is held, so that coarse levels leave it alone
+    Multigrid(const BlockPattern& finest, const std::vector<char>& pinned, const ParticleTransfers& transfers);
+
+    /// Computes all coarse matrices and smoothers.
+    void build(const BlockMatrix& finest);
+    /// z = one V-cycle applied to r.
+    void apply(const BlockMatrix& finest, const LinearVector& r, LinearVector& z);
+    std::size_t bytes() const;
+
+private:
+    struct Level {
+        BlockMatrix matrix;                      // empty at the finest level: the solver's own is used
+        BlockJacobi jacobi;
+        double largest_eigenvalue = 0;           // of D^-1 A, estimated from below and grown a little
+        LinearVector x, b, r, z, d, power;
+        // Interpolation from the next coarser level, and its transpose.
+        std::vector<int> up_begin, up_column, down_begin, down_row;
+        std::vector<linear> up_weight, down_weight;
+        // For each coarse row, the coarse block to which each product term of P^T A P adds, in order.
+        std::vector<std::size_t> plan_begin;
+        std::vector<int> plan;
+    };
+
+    void connect(Level& fine, const Transfer& transfer, const std::vector<char>* pinned, int coarse_rows);
+    void plan_product(const std::vector<int>& row_begin, const std::vector<int>& column, Level& fine, BlockMatrix& coarse);
+    static void coarse_matrix(const BlockMatrix& fine_matrix, const Level& fine, BlockMatrix& coarse);
+    void factorise_coarsest();
+    void estimate_eigenvalue(const BlockMatrix& matrix, Level& level);
+    void smooth(const BlockMatrix& matrix, Level& level, bool from_zero);
+    void cycle(const BlockMatrix& matrix, std::size_t at);
+    const BlockMatrix& matrix_of(const BlockMatrix& finest, std::size_t at) const
+    {
+        return at == 0 ? finest : levels_[at].matrix;
+    }
+
+    std::vector<Level> levels_;
+    Eigen::LLT<Eigen::MatrixXd> coarsest_;
+};
+
+Multigrid::Multigrid(const BlockPattern& finest, const std::vector<char>& pinned, const ParticleTransfers& transfers)
+{
+    levels_.resize(transfers.size() + 1);
+    for (std::size_t l = 0; l < transfers.size(); ++l) {
+        const int coarse_rows = transfers[l].column.empty()
+                                    ? 0
+                                    : *std::max_element(transfers[l].column.begin(), transfers[l].column.end()) + 1;
+        connect(levels_[l], transfers[l], l == 0 ? &pinned : nullptr, coarse_rows);
+        plan_product(l == 0 ? finest.row_begin : levels_[l].matrix.row_begin,
+                     l == 0 ? finest.column : levels_[l].matrix.column, levels_[l], levels_[l + 1].matrix);
+    }
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        const std::size_t size = 3 * std::size_t(l == 0 ? finest.rows() : levels_[l].matrix.rows());
+        for (LinearVector* v : {&levels_[l].x, &levels_[l].b, &levels_[l].r, &levels_[l].z, &levels_[l].d})
+            v->resize(size);
+    }
+}
+
+void Multigrid::connect(Level& fine, const Transfer& transfer, const std::vector<char>* pinned, int coarse_rows)
+{
+    std::vector<std::vector<std::pair<int, linear>>> down(coarse_rows);
+    fine.up_begin.assign(1, 0);
+    for (int row = 0; row + 1 < int(transfer.offset.size()); ++row) {
+        for (int k = transfer.offset[row]; k < transfer.offset[row + 1]; ++k) {
+            if ((pinned && (*pinned)[row]) || transfer.weight[k] == 0) continue;
+            fine.up_column.push_back(transfer.column[k]);
+            fine.up_weight.push_back(linear(transfer.weight[k]));
+            down[transfer.column[k]].push_back({row, linear(transfer.weight[k])});
+        }
+        fine.up_begin.push_back(int(fine.up_column.size()));
+    }
+    fine.down_begin.assign(1, 0);
+    for (const auto& row : down) {
+        for (const auto& [fine_row, weight] : row) {
+            fine.down_row.push_back(fine_row);
+            fine.down_weight.push_back(weight);
+        }
+        fine.down_begin.push_back(int(fine.down_row.size()));
+    }
+}
+
+void Multigrid::plan_product(const std::vector<int>& row_begin, const std::vector<int>& column, Level& fine,
+                             BlockMatrix& coarse)
+{
+    const int coarse_rows = int(fine.down_begin.size()) - 1;
+    std::vector<int> mark(coarse_rows, -1), own;
+    coarse.row_begin.assign(1, 0);
+    fine.plan_begin.assign(1, 0);
+    const auto visit = [&](int row, const auto& action) {
+        for (int q = fine.down_begin[row]; q < fine.down_begin[row + 1]; ++q)
+            for (int k = row_begin[fine.down_row[q]]; k < row_begin[fine.down_row[q] + 1]; ++k)
+                for (int p = fine.up_begin[column[k]]; p < fine.up_begin[column[k] + 1]; ++p) action(fine.up_column[p]);
+    };
+    for (int row = 0; row < coarse_rows; ++row) {
+        own.assign(1, row);   // a coarse vertex that carries nothing still needs its diagonal
+        mark[row] = 0;
+        visit(row, [&](int c) {
+            if (mark[c] < 0) {
+                mark[c] = 0;
+                own.push_back(c);
+            }
+        });
+        std::sort(own.begin(), own.end());
+        for (std::size_t k = 0; k < own.size(); ++k) mark[own[k]] = int(coarse.column.size() + k);
+        coarse.column.insert(coarse.column.end(), own.begin(), own.end());
+        coarse.row_begin.push_back(int(coarse.column.size()));
+        visit(row, [&](int c) { fine.plan.push_back(mark[c]); });
+        fine.plan_begin.push_back(fine.plan.size());
+        for (int c : own) mark[c] = -1;
+    }
+    coarse.block.resize(9 * coarse.column.size());
+}
+
+void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, BlockMatrix& coarse)
+{
+    for_each_item(coarse.rows(), [&](int row) {
+        linear* const first = coarse.block.data() + 9 * std::size_t(coarse.row_begin[row]);
+        std::fill(first, coarse.block.data() + 9 * std::size_t(coarse.row_begin[row + 1]), linear(0));
+        std::size_t term = fine.plan_begin[row];
+        for (int q = fine.down_begin[row]; q < fine.down_begin[row + 1]; ++q) {
+            const int i = fine.down_row[q];
+            for (int k = a.row_begin[i]; k < a.row_begin[i + 1]; ++k) {
+                const linear* from = a.block.data() + 9 * std::size_t(k);
+                const int j = a.column[k];
+                for (int p = fine.up_begin[j]; p < fine.up_begin[j + 1]; ++p) {
+                    linear* to = coarse.block.data() + 9 * std::size_t(fine.plan[term++]);
+                    const linear weight = fine.down_weight[q] * fine.up_weight[p];
+                    for (int c = 0; c < 9; ++c) to[c] += weight * from[c];
+                }
+            }
+        }
+        linear* const diagonal = coarse.block.data() + 9 * std::size_t(coarse.diagonal(row));
+        for (int c = 0; c < 9; c += 4)
+            if (!(diagonal[c] > 0)) diagonal[c] = 1;
+    });
+}
+
+void Multigrid::factorise_coarsest()
+{
+    const BlockMatrix& a = levels_.back().matrix;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * a.rows(), 3 * a.rows());
+    for (int row = 0; row < a.rows(); ++row)
+        for (int k = a.row_begin[row]; k < a.row_begin[row + 1]; ++k)
+            for (int c = 0; c < 9; ++c) dense(3 * row + c / 3, 3 * a.column[k] + c % 3) = a.block[9 * std::size_t(k) + c];
+    dense = (0.5 * (dense + dense.transpose())).eval();
+    // An indefinite matrix (full Hessian of compressed cloth) is shifted until it can be factorised.
+    double shift = 1e-9 * std::max(dense.trace(), 1e-300) / double(dense.rows());
+    for (int attempt = 0; attempt < 16; ++attempt, shift *= 10) {
+        Eigen::MatrixXd shifted = dense;
+        shifted.diagonal().array() += shift;
+        coarsest_.compute(shifted);
+        if (coarsest_.info() == Eigen::Success) return;
+    }
+}
+
+void Multigrid::estimate_eigenvalue(const BlockMatrix& matrix, Level& level)
+{
+    const bool first = level.power.empty();
+    if (first) {
+        level.power.resize(level.x.size());
+        std::uint32_t seed = 1;   // a fixed sequence: the same run gives the same bits
+        for (linear& v : level.power) v = linear(int((seed = seed * 1664525u + 1013904223u) >> 16) % 2001 - 1000) / 1000;
+    }
+    double growth = 1;
+    for (int round = 0; round < (first ? 12 : 4); ++round) {
+        const double size = std::sqrt(dot(level.power, level.power));
+        for_each_item(int(level.power.size()), [v = level.power.data(), s = linear(1 / size)](int i) { v[i] *= s; });
+        matrix.multiply(level.power, level.r);
+        level.jacobi.apply(level.r, level.power);
+        growth = std::sqrt(dot(level.power, level.power));
+    }
+    level.largest_eigenvalue = 1.15 * growth;
+}
+
+void Multigrid::build(const BlockMatrix& finest)
+{
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        if (l + 1 == levels_.size()) {
+            factorise_coarsest();
+            return;
+        }
+        const BlockMatrix& matrix = matrix_of(finest, l);
+        coarse_matrix(matrix, levels_[l], levels_[l + 1].matrix);
+        levels_[l].jacobi.build(matrix);
+        estimate_eigenvalue(matrix, levels_[l]);
+    }
+}
+
+// Two Chebyshev steps on the upper part of the spectrum of D^-1 A.
+void Multigrid::smooth(const BlockMatrix& matrix, Level& level, bool from_zero)
+{
+    const double high = level.largest_eigenvalue, low = high / 6, middle = 0.5 * (high + low), radius = 0.5 * (high - low);
+    const double sigma = middle / radius;
+    const int size = int(level.x.size());
+    linear *x = level.x.data(), *d = level.d.data(), *r = level.r.data();
+    const linear *b = level.b.data(), *z = level.z.data();
+    double rho = 1 / sigma;
+    for (int step = 0; step < 2; ++step) {
+        if (step == 0 && from_zero) {
+            level.jacobi.apply(level.b, level.z);
+        } else {
+            matrix.multiply(level.x, level.r);
+            for_each_item(size, [r, b](int i) { r[i] = b[i] - r[i]; });
+            level.jacobi.apply(level.r, level.z);
+        }
+        const double next = step == 0 ? 0 : 1 / (2 * sigma - rho);
+        const linear keep = step == 0 ? 0 : linear(next * rho), gain = linear(step == 0 ? 1 / middle : 2 * next / radius);
+        if (step > 0) rho = next;
+        const bool fresh = step == 0 && from_zero;
+        for_each_item(size, [=](int i) {
+            d[i] = (step == 0 ? 0 : keep * d[i]) + gain * z[i];
+            x[i] = fresh ? d[i] : x[i] + d[i];
+        });
+    }
+}
+
+void Multigrid::cycle(const BlockMatrix& matrix, std::size_t at)
+{
+    Level& level = levels_[at];
+    if (at + 1 == levels_.size()) {
+        const Eigen::Map<const Eigen::Matrix<linear, Eigen::Dynamic, 1>> b(level.b.data(), Eigen::Index(level.b.size()));
+        const Eigen::VectorXd x = coarsest_.solve(b.template cast<double>());
+        for (Eigen::Index i = 0; i < x.size(); ++i) level.x[std::size_t(i)] = linear(x[i]);
+        return;
+    }
+    Level& coarse = levels_[at + 1];
+    smooth(matrix, level, true);
+    matrix.multiply(level.x, level.r);
+    for_each_item(int(coarse.b.size() / 3), [&level, to = coarse.b.data()](int row) {
+        linear sum[3] = {0, 0, 0};
+        for (int k = level.down_begin[row]; k < level.down_begin[row + 1]; ++k)
+            for (int c = 0; c < 3; ++c) {
+                const int i = 3 * level.down_row[k] + c;
+                sum[c] += level.down_weight[k] * (level.b[i] - level.r[i]);
+            }
+        for (int c = 0; c < 3; ++c) to[3 * row + c] = sum[c];
+    });
+    cycle(coarse.matrix, at + 1);
+    for_each_item(int(level.x.size() / 3), [&level, from = coarse.x.data()](int row) {
+        for (int k = level.up_begin[row]; k < level.up_begin[row + 1]; ++k)
+            for (int c = 0; c < 3; ++c) level.x[3 * row + c] += level.up_weight[k] * from[3 * level.up_column[k] + c];
+    });
+    smooth(matrix, level, false);
+}
+
+void Multigrid::apply(const BlockMatrix& finest, const LinearVector& r, LinearVector& z)
+{
+    levels_[0].b = r;
+    cycle(finest, 0);
+    z = levels_[0].x;
+}
+
+std::size_t Multigrid::bytes() const
+{
+    std::size_t total = 0;
+    for (const Level& level : levels_)
+        total += level.matrix.bytes() + level.jacobi.bytes() + 6 * level.x.size() * sizeof(linear) +
+                 (level.up_column.size() + level.down_row.size()) * (sizeof(int) + sizeof(linear)) +
+                 level.plan.size() * sizeof(int) + level.plan_begin.size() * sizeof(std::size_t);
+    return total;
+}
+
+}  // namespace
+}  // namespace selvage

@@ -1,0 +1,213 @@
+#include "host/solver/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/solver/launch.hpp"
+
+namespace selvage {
+namespace {
+
+// Sum over vertices of the product of two fields with three components.
+double dot3(const State& state, const std::vector<real>& a, const std::vector<real>& b)
+{
+    const int vs = state.size.vertex_stride;
+    return sum_items(state.size.vertex_count, [vs, x = a.data(), y = b.data()](int v) {
+        return x[v] * y[v] + x[vs + v] * y[vs + v] + x[2 * vs + v] * y[2 * vs + v];
+    });
+}
+
+}  // namespace
+
+Newton::Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, Profile& profile)
+    : state_(state), params_(params), linear_(linear), contact_(contact), profile_(profile)
+{
+    for (const Term& term : all_terms())
+        if (term.is_active(params)) (term.nature == Nature::conservative ? conservative_ : dissipative_).push_back(&term);
+    for (std::vector<real>* v : {&start_, &target_, &base_, &downhill_, &direction_}) v->assign(state.pos.size(), 0);
+    const double gravity = std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y,
+                                      params.gravity.acceleration_z);
+    // Without gravity forces are measured against the weight that the cloth would have on earth.
+    const double scale = gravity > 0 ? gravity : 9.81;
+    force_scale_ = std::sqrt(sum_items(state.size.vertex_count, [&state, scale](int v) {
+        return state.inv_mass[v] == 0 ? 0.0 : scale * scale * state.mass[v] * state.mass[v];
+    }));
+}
+
+double Newton::objective()
+{
+    double total = 0;
+    for (const Term* term : conservative_)
+        total += profile_.timed(term->name, term->item_count(state_.size),
+                                std::int64_t(term->item_count(state_.size)) * term->bytes_per_item,
+                                [&] { return term->energy(state_, params_); });
+    if (inertia_ == 0) return total;
+    for (const Term* term : dissipative_) total += dt_ * term->energy(state_, params_);
+    const int vs = state_.size.vertex_stride;
+    return total + 0.5 * inertia_ * sum_items(state_.size.vertex_count, [this, vs](int v) {
+        double squared = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double d = state_.pos[c * vs + v] - target_[c * vs + v];
+            squared += d * d;
+        }
+        return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
+    });
+}
+
+// downhill = f - m (x - x^) / dt^2, zero at pinned vertices.
+void Newton::evaluate_gradient()
+{
+    clear_forces(state_);
+    for (const Term* term : conservative_)
+        profile_.timed(term->name, term->item_count(state_.size),
+                       std::int64_t(term->item_count(state_.size)) * term->bytes_per_item,
+                       [&] { term->add_force(state_, params_); });
+    if (inertia_ > 0)
+        for (const Term* term : dissipative_) term->add_force(state_, params_);
+    profile_.timed("gather_forces", state_.size.vertex_count, 0, [&] { gather_forces(state_); });
+    const int vs = state_.size.vertex_stride;
+    for_each_item(state_.size.vertex_count, [this, vs](int v) {
+        for (int c = 0; c < 3; ++c) {
+            const int i = c * vs + v;
+            const double pull = inertia_ * state_.mass[v] * (target_[i] - state_.pos[i]);
+            downhill_[i] = state_.inv_mass[v] == 0 ? 0 : state_.force[i] + pull;
+        }
+    });
+}
+
+double Newton::gradient_norm() const { return std::sqrt(dot3(state_, downhill_, downhill_)); }
+
+void Newton::assemble(bool projected)
+{
+    const auto add = [&](const Term* term) {
+        profile_.timed(std::string(term->name) + "_stiffness", term->item_count(state_.size), 0,
+                       [&] { term->add_stiffness(state_, params_, projected); });
+    };
+    clear_stiffness(state_);
+    if (inertia_ > 0 && !dissipative_.empty()) {
+        for (const Term* term : dissipative_) add(term);
+        // d2/dx2 of dt R(v) is 1/dt of d2R/dv2; dissipative terms act on vertices only.
+        for_each_item(int(state_.vertex_stiffness.size()),
+                      [k = state_.vertex_stiffness.data(), scale = block_real(1 / dt_)](int i) { k[i] *= scale; });
+    }
+    for (const Term* term : conservative_) add(term);
+    profile_.timed("assemble", state_.size.vertex_count, 0, [&] { linear_.assemble(state_, inertia_); });
+}
+
+// Solves for the direction; returns the slope of the objective along it (negative).
+double Newton::search_direction(const NewtonOptions& options, NewtonReport& report)
+{
+    assemble(!options.full_stiffness);
+    const LinearResult result = profile_.timed("linear_solve", state_.size.vertex_count, 0, [&] {
+        return linear_.solve(downhill_.data(), options.linear_tolerance, direction_.data());
+    });
+    report.linear_iterations += result.iterations;
+    double slope = -dot3(state_, downhill_, direction_);
+    if (slope > 0) {   // only an indefinite matrix can give this
+        for_each_item(int(direction_.size()), [d = direction_.data()](int i) { d[i] = -d[i]; });
+        slope = -slope;
+    }
+    return slope;
+}
+
+// Moves to base + fraction * direction.
+void Newton::place(double fraction)
+{
+    const double inverse_dt = inertia_ > 0 ? 1 / dt_ : 0;
+    for_each_item(int(state_.pos.size()), [=, this](int i) {
+        state_.pos[i] = base_[i] + fraction * direction_[i];
+        state_.vel[i] = inverse_dt * (state_.pos[i] - start_[i]);
+    });
+}
+
+// Backtracks until the objective falls by a fraction of what the slope promises. Below the rounding noise of the
+// objective the slope itself decides: a direction that still points downhill has not gone too far.
+bool Newton::search_line(double slope, const NewtonOptions& options)
+{
+    base_ = state_.pos;
+    const double before = objective();
+    const int vs = state_.size.vertex_stride;
+    const double furthest = std::sqrt(max_items(state_.size.vertex_count, [this, vs](int v) {
+        const double x = direction_[v], y = direction_[vs + v], z = direction_[2 * vs + v];
+        return x * x + y * y + z * z;
+    }));
+    double fraction = furthest > options.max_move ? options.max_move / furthest : 1;
+    const double noise = 1e-13 * std::abs(before) + 1e-16;
+    for (int attempt = 0; attempt < 16; ++attempt) {
+        place(fraction);
+        const double after = objective();
+        if (std::isfinite(after) && after <= before + 1e-4 * fraction * slope) return true;
+        if (std::isfinite(after) && std::abs(after - before) <= noise) {
+            evaluate_gradient();
+            if (std::abs(dot3(state_, downhill_, direction_)) <= 0.9 * std::abs(slope)) return true;
+        }
+        fraction *= 0.5;
+    }
+    place(0);
+    return false;
+}
+
+NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
+{
+    NewtonReport report;
+    for (;; ++report.iterations) {
+        if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
+        if (settle_each) settle_friction(state_, params_);
+        evaluate_gradient();
+        report.residual = gradient_norm() / force_scale_;
+        report.converged = report.residual <= options.tolerance;
+        if (report.converged || report.iterations == options.max_iterations) return report;
+        const double slope = search_direction(options, report);
+        report.stuck = !std::isfinite(slope) || !search_line(slope, options);
+        if (report.stuck) return report;
+    }
+}
+
+NewtonReport Newton::step(double dt, const NewtonOptions& options)
+{
+    dt_ = dt;
+    inertia_ = 1 / (dt * dt);
+    start_ = state_.pos;
+    for_each_item(int(start_.size()),
+                  [this, dt](int i) { target_[i] = start_[i] + dt * state_.vel[i]; });
+    // The step starts from rest: from there the first linear solve is that of D11.
+    for_each_item(int(state_.vel.size()), [v = state_.vel.data()](int i) { v[i] = 0; });
+    const NewtonReport report = iterate(options, false);
+    settle_friction(state_, params_);
+    return report;
+}
+
+NewtonReport Newton::relax(const NewtonOptions& options)
+{
+    dt_ = 0;
+    inertia_ = 0;
+    start_ = state_.pos;
+    std::fill(state_.vel.begin(), state_.vel.end(), 0);
+    return iterate(options, true);
+}
+
+double Newton::static_residual()
+{
+    inertia_ = 0;
+    evaluate_gradient();
+    return gradient_norm() / force_scale_;
+}
+
+double Newton::energy_of(std::string_view name) const
+{
+    for (const Term* term : conservative_)
+        if (term->name == name) return term->energy(state_, params_);
+    return 0;
+}
+
+double Newton::kinetic_energy() const
+{
+    const int vs = state_.size.vertex_stride;
+    return 0.5 * sum_items(state_.size.vertex_count, [this, vs](int v) {
+        double squared = 0;
+        for (int c = 0; c < 3; ++c) squared += state_.vel[c * vs + v] * state_.vel[c * vs + v];
+        return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
+    });
+}
+
+}  // namespace selvage

@@ -1,0 +1,37 @@
+#include "host/solver/phase.hpp"
+
+namespace selvage {
+namespace {
+
+ParticleTransfers particle_transfers(const ClothModel& model, const Topology& finest, bool joined)
+{
+    ParticleTransfers transfers;
+    Topology finer = finest;
+    for (std::size_t level = 0; level < model.coarser.size(); ++level) {
+        Topology coarse = make_topology(model.coarser[level], joined);
+        transfers.push_back(particle_transfer(model.transfers[level], coarse, finer));
+        finer = std::move(coarse);
+    }
+    return transfers;
+}
+
+}  // namespace
+
+Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
+             const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
+    : options_(options), topology_(make_topology(model.cloth, options.joined)),
+      state_(topology_sizes(topology_, int(model.fabrics.size())), required_fields(options.params))
+{
+    fill_state(state_, topology_, model.cloth, model.fabrics, positions, velocities);
+    const bool multigrid = options.linear.preconditioner == Preconditioner::multigrid;
+    const ParticleTransfers transfers =
+        multigrid ? particle_transfers(model, topology_, options.joined) : ParticleTransfers{};
+    linear_ = options.float_solves ? make_linear_solver_float(state_, options.linear, transfers)
+                                   : make_linear_solver_double(state_, options.linear, transfers);
+    if (query && !state_.contact_normal.empty())
+        contact_ = std::make_unique<FabricContact>(*query, model.bodies, topology_, model.cloth, model.fabrics,
+                                                   options.params.body_contact.gap, options.contact_margin);
+    newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), profile);
+}
+
+}  // namespace selvage

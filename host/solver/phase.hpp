@@ -1,0 +1,58 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "host/solver/fabric_contact.hpp"
+#include "host/solver/linear_solver.hpp"
+#include "host/solver/newton.hpp"
+#include "host/solver/topology.hpp"
+
+namespace selvage {
+
+/// What all phases of a run share. The coarser cloths are the same panels at twice the edge length, and so on.
+struct ClothModel {
+    Cloth cloth;
+    std::vector<Cloth> coarser;          ///< Finest of them first; may be empty.
+    std::vector<Transfer> transfers;     ///< From coarser[k] to the next finer cloth.
+    FabricTable fabrics;
+    std::vector<Body> bodies;
+};
+
+struct PhaseOptions {
+    Params params;
+    bool joined = true;                  ///< Sewn vertices are one particle.
+    bool float_solves = false;
+    LinearOptions linear;
+    double contact_margin = 0.03;        ///< See FabricContact [m].
+};
+
+/// One phase of a run, sewing or draping: its particles, its terms and its solver.
+class Phase {
+public:
+    /// @param query        null when the phase has no contact with bodies
+    /// @param positions    per cloth vertex [m]
+    /// @param velocities   per cloth vertex [m/s]; empty: at rest
+    Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
+          const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
+
+    State& state() { return state_; }
+    const State& state() const { return state_; }
+    const Topology& topology() const { return topology_; }
+    Params& params() { return options_.params; }
+    Newton& newton() { return *newton_; }
+    ContactField* contact() { return contact_.get(); }
+    const ContactField* contact() const { return contact_.get(); }
+    std::vector<Vec3> positions() const { return cloth_vectors(topology_, state_.size, state_.pos); }
+    std::vector<Vec3> velocities() const { return cloth_vectors(topology_, state_.size, state_.vel); }
+    std::size_t bytes() const { return state_.bytes() + linear_->bytes(); }
+
+private:
+    PhaseOptions options_;
+    Topology topology_;
+    State state_;
+    std::unique_ptr<LinearSolver> linear_;
+    std::unique_ptr<FabricContact> contact_;
+    std::unique_ptr<Newton> newton_;
+};
+
+}  // namespace selvage

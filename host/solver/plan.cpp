@@ -1,0 +1,148 @@
+#include "host/solver/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "io/memory.hpp"
+
+namespace selvage {
+namespace {
+
+bool any_fabric(const SceneModel& model, double Fabric::*property)
+{
+    return std::any_of(model.model.fabrics.begin(), model.model.fabrics.end(),
+                       [&](const auto& entry) { return entry.second.*property > 0; });
+}
+
+double contact_stiffness(const Scene& scene, const SceneModel& model)
+{
+    if (!std::isnan(scene.contact.stiffness)) return scene.contact.stiffness;
+    double heaviest = 0;
+    for (const auto& [name, fabric] : model.model.fabrics) heaviest = std::max(heaviest, fabric.areal_density);
+    const double gravity = scene.solver.gravity.norm();
+    return 100 * heaviest * (gravity > 0 ? gravity : 9.81);
+}
+
+bool any_friction(const SceneModel& model)
+{
+    const auto rubs = [&](const Body& body) {
+        return std::isnan(body.friction) ? any_fabric(model, &Fabric::friction) : body.friction > 0;
+    };
+    return std::any_of(model.model.bodies.begin(), model.model.bodies.end(), rubs);
+}
+
+Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
+{
+    Params params;
+    if (!sewing) {
+        params.gravity.acceleration_x = scene.solver.gravity.x();
+        params.gravity.acceleration_y = scene.solver.gravity.y();
+        params.gravity.acceleration_z = scene.solver.gravity.z();
+    }
+    params.membrane.scale = scene.membrane.model == "none" ? 0 : scene.membrane.scale;
+    const bool bends = any_fabric(model, &Fabric::bending_weft) || any_fabric(model, &Fabric::bending_warp);
+    params.bending.scale = scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
+    params.damping.scale = any_fabric(model, &Fabric::damping) ? 1 : 0;
+    if (sewing) {
+        params.seam.stiffness = scene.seams.stiffness;
+        params.seam.force_limit = scene.seams.force_limit;
+    }
+    if (model.model.bodies.empty() || !scene.contact.body) return params;
+    params.body_contact.stiffness = contact_stiffness(scene, model);
+    params.body_contact.gap = scene.contact.gap;
+    // The cloth slides freely while it is sewn: friction would hold it where the panels first touched the body.
+    params.friction.scale = !sewing && any_friction(model) ? 1 : 0;
+    return params;
+}
+
+std::size_t solver_estimate(const Scene& scene, const mesh_sizes& size, bool levels)
+{
+    const std::size_t scalar = scene.solver.precision == "float" ? 4 : 8;
+    const std::size_t blocks = std::size_t(size.vertex_count) + 2 * std::size_t(size.face_count) * 3 / 2 +
+                               2 * std::size_t(size.hinge_count);
+    const std::size_t matrix = blocks * (9 * scalar + 4) + std::size_t(size.vertex_count) * (9 + 15) * scalar;
+    const std::size_t places = 2 * (9 * std::size_t(size.face_count) + 16 * std::size_t(size.hinge_count));
+    // Coarse matrices are a third of the finest one; the plan of their products holds nine entries per fine block.
+    return matrix + places + (levels ? matrix / 3 + 9 * 4 * blocks * 4 / 3 : 0);
+}
+
+PhasePlan plan_phase(const Scene& scene, const SceneModel& model, bool sewing)
+{
+    PhasePlan phase;
+    phase.name = sewing ? "sew" : "drape";
+    phase.params = phase_params(scene, model, sewing);
+    phase.joined = !sewing;
+    phase.queries_bodies = phase.params.body_contact.stiffness > 0;
+    const mesh_sizes size =
+        topology_sizes(make_topology(model.model.cloth, phase.joined), int(model.model.fabrics.size()));
+    for (const Term& term : all_terms())
+        if (term.is_active(phase.params))
+            phase.launches.push_back({std::string(term.name), std::string(kind_name(term.per)), term.item_count(size),
+                                      std::size_t(term.item_count(size)) * std::size_t(term.bytes_per_item)});
+    if (phase.queries_bodies) phase.launches.push_back({"body_query", "vertex", size.vertex_count, 0});
+    phase.field_bytes = field_bytes(size, required_fields(phase.params));
+    phase.solver_bytes = solver_estimate(scene, size, !model.model.coarser.empty());
+    return phase;
+}
+
+std::string absence(const Scene& scene, const SceneModel& model, std::string_view term)
+{
+    const bool bodies = !model.model.bodies.empty();
+    if (term == "gravity") return "solver.gravity is zero";
+    if (term == "membrane") return "membrane.model is none or its scale is zero";
+    if (term == "bending") return "bending.model is none, or no fabric has a bending rigidity";
+    if (term == "seam") return "there are no seams";
+    if (term == "damping") return "no fabric has damping";
+    if (!bodies) return "there are no bodies";
+    if (!scene.contact.body) return "contact.body is false";
+    return "no body and no fabric has friction";
+}
+
+}  // namespace
+
+RunPlan make_plan(const Scene& scene, const SceneModel& model)
+{
+    RunPlan plan;
+    if (model.sews) plan.phases.push_back(plan_phase(scene, model, true));
+    plan.phases.push_back(plan_phase(scene, model, false));
+    for (const Term& term : all_terms()) {
+        const bool used = std::any_of(plan.phases.begin(), plan.phases.end(),
+                                      [&](const PhasePlan& phase) { return term.is_active(phase.params); });
+        if (used)
+            plan.active.push_back(std::string(term.name));
+        else
+            plan.skipped.push_back({std::string(term.name), absence(scene, model, term.name)});
+    }
+    const bool queries = plan.phases.back().queries_bodies;
+    plan.embree = queries && std::any_of(model.model.bodies.begin(), model.model.bodies.end(),
+                                         [](const Body& body) { return body.kind == Body::Kind::mesh; });
+    if (plan.embree)
+        plan.active.push_back("embree");
+    else
+        plan.skipped.push_back({"embree", queries ? "all bodies have closed forms" : "no body is queried"});
+    if (!model.sews) plan.skipped.push_back({"sew", "there are no seams"});
+    if (scene.wind.velocity.isZero()) plan.skipped.push_back({"wind", "wind.velocity is zero"});
+    plan.skipped.push_back({"cloth_contact", "contact of the cloth with itself is not part of this version"});
+
+    std::size_t body_bytes = 0;
+    for (const Body& body : model.model.bodies) body_bytes += body.mesh.faces.size() * 400;
+    for (const PhasePlan& phase : plan.phases)
+        plan.peak_bytes = std::max(plan.peak_bytes, phase.field_bytes + phase.solver_bytes);
+    plan.peak_bytes += model.model.cloth.positions.size() * 500 + body_bytes + (std::size_t(100) << 20);
+    return plan;
+}
+
+void check_memory(const Scene& scene, const RunPlan& plan)
+{
+    const double limit =
+        scene.solver.memory_limit > 0 ? scene.solver.memory_limit : 0.9 * double(physical_memory_bytes());
+    if (double(plan.peak_bytes) <= limit) return;
+    const std::string key = scene.has_garment() ? "garment.resolution" : "sheet[0].resolution";
+    throw InputError(scene.place(key),
+                     fmt::format("a resolution whose run needs about {:.1f} GiB", double(plan.peak_bytes) / (1 << 30)),
+                     fmt::format("at most {:.1f} GiB (solver.memory_limit)", limit / (1 << 30)));
+}
+
+}  // namespace selvage

@@ -1,0 +1,25 @@
+#include "host/solver/body_contact.hpp"
+#include "host/solver/launch.hpp"
+#include "kernels/stages/settle_friction.h"
+
+namespace selvage {
+
+void settle_friction(State& state, const Params& params)
+{
+    if (state.friction_anchor.empty()) return;
+    settle_friction_args args{};
+    args.contact.size = state.size;
+    args.contact.pos = state.pos.data();
+    args.contact.contact_normal = state.contact_normal.data();
+    args.contact.contact_offset = state.contact_offset.data();
+    args.contact.contact_area = state.contact_area.data();
+    args.contact.stiffness = params.body_contact.stiffness;
+    args.contact.gap = params.body_contact.gap;
+    args.friction = state.contact_friction.data();
+    args.anchor = state.friction_anchor.data();
+    args.limit = state.friction_limit.data();
+    args.stick_distance = params.friction.stick_distance;
+    launch<settle_friction_vertex>(state.size.vertex_count, args);
+}
+
+}  // namespace selvage

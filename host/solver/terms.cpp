@@ -1,0 +1,159 @@
+#include "host/solver/terms.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "host/solver/launch.hpp"
+#include "kernels/stages/gather.h"
+
+namespace selvage {
+namespace {
+
+FieldSet set_of(std::initializer_list<Field> fields)
+{
+    FieldSet set;
+    for (Field field : fields) set.set(std::size_t(field));
+    return set;
+}
+
+// A const state binds its accumulators to null: an energy function cannot write.
+template <class T> T* writable(std::vector<T>& field) { return field.data(); }
+template <class T> T* writable(const std::vector<T>&) { return nullptr; }
+
+// One traits struct per line of kernels/terms.h. The macros below only list and bind; the logic is in templates.
+#define LIST_FIELD(name) Field::name,
+#define SET_READ(name) a.name = state.name.data();
+#define SET_ADD(name) a.name = writable(state.name);
+#define SET_PARAM(name, initial, unit, meaning) a.name = values.name;
+#define OR_NON_ZERO(name, initial, unit, meaning) || values.name != 0
+#define IGNORE(name, initial, unit, meaning)
+#define TERM(term, kind, nature_of_term)                                                                    \
+    struct term##_traits {                                                                                  \
+        static constexpr std::string_view name = #term;                                                     \
+        static constexpr ItemKind per = ItemKind::kind;                                                     \
+        static constexpr Nature nature = Nature::nature_of_term;                                            \
+        static FieldSet fields() { return set_of({term##_FIELDS(LIST_FIELD, LIST_FIELD)}); }                \
+        static constexpr auto force = term##_force;                                                         \
+        static constexpr auto stiffness = term##_stiffness;                                                 \
+        static constexpr auto energy = term##_energy;                                                       \
+        static int count(const mesh_sizes& size) { return size.kind##_count; }                              \
+        static const auto& values(const Params& params) { return params.term; }                             \
+        static bool any_strength(const auto& values) { return false term##_PARAMS(OR_NON_ZERO, IGNORE); }   \
+        static void bind(term##_args& a, auto& state, const auto& values)                                   \
+        {                                                                                                   \
+            a.size = state.size;                                                                            \
+            term##_FIELDS(SET_READ, SET_ADD) term##_PARAMS(SET_PARAM, SET_PARAM)                            \
+        }                                                                                                   \
+        using Args = term##_args;                                                                           \
+    };
+TERMS(TERM)
+#undef TERM
+
+template <class Traits>
+typename Traits::Args bound(auto& state, const Params& params, bool projected = false)
+{
+    typename Traits::Args args;
+    args.mode.projected = projected;
+    Traits::bind(args, state, Traits::values(params));
+    return args;
+}
+
+int bytes_of_own_kind(const FieldSet& fields, std::string_view kind)
+{
+    int bytes = 0;
+    for (std::size_t f = 0; f < fields.size(); ++f)
+        if (fields[f] && field_info(Field(f)).per == kind) bytes += field_info(Field(f)).bytes_per_item;
+    return bytes;
+}
+
+template <class Traits>
+Term describe()
+{
+    const FieldSet fields = Traits::fields();
+    return {.name = Traits::name,
+            .per = Traits::per,
+            .nature = Traits::nature,
+            .fields = fields,
+            .bytes_per_item = bytes_of_own_kind(fields, kind_name(Traits::per)),
+            .is_active = [](const Params& params) { return Traits::any_strength(Traits::values(params)); },
+            .item_count = Traits::count,
+            .add_force =
+                [](State& state, const Params& params) {
+                    launch<Traits::force>(Traits::count(state.size), bound<Traits>(state, params));
+                },
+            .add_stiffness =
+                [](State& state, const Params& params, bool projected) {
+                    launch<Traits::stiffness>(Traits::count(state.size), bound<Traits>(state, params, projected));
+                },
+            .energy =
+                [](const State& state, const Params& params) {
+                    return launch_sum<Traits::energy>(Traits::count(state.size), bound<Traits>(state, params));
+                }};
+}
+
+#define GATHER_FIELDS(kind, corners)                                     \
+    if (fields[std::size_t(Field::kind##_force)]) {                      \
+        fields.set(std::size_t(Field::kind##_slots));                    \
+        fields.set(std::size_t(Field::kind##_slot));                     \
+    }
+
+}  // namespace
+
+std::span<const Term> all_terms()
+{
+#define TERM(term, per, nature) describe<term##_traits>(),
+    static const Term terms[] = {TERMS(TERM)};
+#undef TERM
+    return terms;
+}
+
+std::string_view kind_name(ItemKind kind)
+{
+    constexpr std::string_view names[] = {"vertex", "face", "hinge", "stitch"};
+    return names[int(kind)];
+}
+
+FieldSet required_fields(const Params& params)
+{
+    FieldSet fields = set_of({Field::pos, Field::vel, Field::mass, Field::inv_mass, Field::force});
+    for (const Term& term : all_terms())
+        if (term.is_active(params)) fields |= term.fields;
+    ELEMENT_KINDS(GATHER_FIELDS)
+    return fields;
+}
+
+void clear_forces(State& state)
+{
+    const auto clear = [](std::vector<real>& field) {
+        for_each_item(int(field.size()), [to = field.data()](int i) { to[i] = 0; });
+    };
+    clear(state.force);
+#define CLEAR(kind, corners) clear(state.kind##_force);
+    ELEMENT_KINDS(CLEAR)
+#undef CLEAR
+}
+
+void clear_stiffness(State& state)
+{
+    const auto clear = [](std::vector<block_real>& field) {
+        for_each_item(int(field.size()), [to = field.data()](int i) { to[i] = 0; });
+    };
+    clear(state.vertex_stiffness);
+#define CLEAR(kind, corners) clear(state.kind##_stiffness);
+    ELEMENT_KINDS(CLEAR)
+#undef CLEAR
+}
+
+void gather_forces(State& state)
+{
+#define GATHER(kind, corners)                                                                                  \
+    if (!state.kind##_force.empty())                                                                           \
+        launch<gather_force>(state.size.vertex_count,                                                          \
+                             gather_args{state.kind##_slots.data(), state.kind##_slot.data(),                  \
+                                         state.kind##_force.data(), state.force.data(),                        \
+                                         state.size.vertex_stride, state.size.kind##_stride});
+    ELEMENT_KINDS(GATHER)
+#undef GATHER
+}
+
+}  // namespace selvage

@@ -1,0 +1,118 @@
+#pragma once
+#include <random>
+#include <vector>
+
+#include "host/solver/terms.hpp"
+#include "host/solver/topology.hpp"
+
+namespace selvage {
+
+/// Parameters with every strength set to one, so that every term is active.
+inline Params unit_strengths()
+{
+    Params params;
+#define STRENGTH(name, initial, unit, meaning) values.name = 1;
+#define PARAM(name, initial, unit, meaning)
+#define TERM(term, per, nature) { auto& values = params.term; term##_PARAMS(STRENGTH, PARAM) }
+    TERMS(TERM)
+#undef TERM
+#undef PARAM
+#undef STRENGTH
+    return params;
+}
+
+/// A flat grid of columns x rows vertices, 0.1 m apart, with alternating diagonals, in one panel.
+inline Cloth grid_cloth(int columns, int rows, double spacing = 0.1)
+{
+    Cloth cloth;
+    for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < columns; ++c) {
+            cloth.panel_coordinates.push_back(Vec2(c * spacing, r * spacing));
+            cloth.positions.push_back(Vec3(c * spacing, r * spacing, 0));
+        }
+    for (int r = 0; r + 1 < rows; ++r)
+        for (int c = 0; c + 1 < columns; ++c) {
+            const int v = r * columns + c;
+            const int w = v + columns;
+            if ((r + c) % 2) {
+                cloth.faces.push_back({v, v + 1, w + 1});
+                cloth.faces.push_back({v, w + 1, w});
+            } else {
+                cloth.faces.push_back({v, v + 1, w});
+                cloth.faces.push_back({v + 1, w + 1, w});
+            }
+        }
+    ClothPanel panel;
+    panel.name = "sheet";
+    panel.fabric = "test";
+    panel.vertex_count = columns * rows;
+    panel.face_count = int(cloth.faces.size());
+    panel.rest_area = spacing * spacing * (columns - 1) * (rows - 1);
+    cloth.panels.push_back(panel);
+    return cloth;
+}
+
+/// An orthotropic fabric of order one, so that no term hides behind another in a test.
+inline FabricTable test_fabrics()
+{
+    Fabric fabric;
+    fabric.name = "test";
+    fabric.areal_density = 2;
+    fabric.stretch_weft = 3;
+    fabric.stretch_warp = 2;
+    fabric.stretch_coupling = 0.5;
+    fabric.shear = 0.7;
+    fabric.bending_weft = 0.02;
+    fabric.bending_warp = 0.01;
+    return {{"test", fabric}};
+}
+
+/// The grid with random displacements of 40 % of its spacing, random velocities, contacts near the barrier's gap,
+/// slipping and sticking anchors, and stitches between its first and last vertices.
+inline State crumpled_state(const Params& params, unsigned seed = 7)
+{
+    Cloth cloth = grid_cloth(4, 4);
+    cloth.seam_pairs = {{0, 15}, {1, 2}};
+    const Topology topology = make_topology(cloth, false);
+    State state(topology_sizes(topology, 1), required_fields(params));
+    fill_state(state, topology, cloth, test_fabrics(), cloth.positions, {});
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<real> uniform(-1, 1);
+    const int vs = state.size.vertex_stride;
+    for (int v = 0; v < state.size.vertex_count; ++v) {
+        Vec3 normal(uniform(random), uniform(random), uniform(random));
+        normal.normalize();
+        double along = 0;
+        for (int c = 0; c < 3; ++c) {
+            state.pos[c * vs + v] += 0.04 * uniform(random);
+            state.vel[c * vs + v] = uniform(random);
+            state.contact_normal[c * vs + v] = normal[c];
+            along += normal[c] * state.pos[c * vs + v];
+            state.friction_anchor[c * vs + v] = state.pos[c * vs + v] + params.friction.stick_distance * uniform(random);
+        }
+        state.contact_offset[v] = along - params.body_contact.gap * (0.6 + 0.5 * uniform(random));
+        state.friction_limit[v] = 1 + uniform(random);
+    }
+    for (int h = 0; h < state.size.hinge_count; ++h) state.hinge_rest_sine[h] = 0.2 * uniform(random);
+    return state;
+}
+
+/// Indices into `state.pos` that belong to a vertex, not to padding.
+inline std::vector<int> active_dofs(const State& state)
+{
+    std::vector<int> dofs;
+    for (int c = 0; c < 3; ++c)
+        for (int v = 0; v < state.size.vertex_count; ++v) dofs.push_back(c * state.size.vertex_stride + v);
+    return dofs;
+}
+
+/// The force of one term alone, indexed like `state.pos` [N].
+inline std::vector<real> term_force(const Term& term, State& state, const Params& params)
+{
+    clear_forces(state);
+    term.add_force(state, params);
+    gather_forces(state);
+    return state.force;
+}
+
+}  // namespace selvage
