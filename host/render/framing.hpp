@@ -1,0 +1,20 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "host/render/camera.hpp"
+#include "host/render/picture.hpp"
+
+namespace selvage {
+
+/// Returns the vertices that must be in the picture: the cloth's, and those of the bodies close to it; the bodies'
+/// alone when there is no cloth, and one point when there is nothing.
+/// @param meshes  mesh 0 is the cloth, the rest are bodies
+std::vector<Vec3f> framed_points(const std::vector<DrawnMesh>& meshes);
+
+/// Returns the directions of the two views.
+/// @param points    what is framed
+/// @param has_seams whether the cloth is sewn, and so has a front
+std::array<ViewDirection, 2> view_directions(PictureViews views, bool has_seams, const std::vector<Vec3f>& points);
+
+}  // namespace selvage

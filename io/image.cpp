@@ -1,0 +1,43 @@
+#include "io/image.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "io/errors.hpp"
+
+namespace selvage {
+
+Image make_image(int width, int height, Rgb colour)
+{
+    Image image{width, height, {}};
+    image.pixels.assign(std::size_t(width) * std::size_t(height), colour);
+    return image;
+}
+
+void write_png(const std::string& file, const Image& image)
+{
+    const std::size_t pixel_count = std::size_t(image.width) * std::size_t(image.height);
+    if (pixel_count == 0 || image.pixels.size() != pixel_count)
+        throw InputError({file, 0, 0, {}},
+                         std::to_string(image.pixels.size()) + " pixels for " + std::to_string(image.width) + " x " +
+                             std::to_string(image.height),
+                         "a picture of at least one pixel");
+
+    cv::Mat bgr(image.height, image.width, CV_8UC3);
+    for (int row = 0; row < image.height; ++row)
+        for (int column = 0; column < image.width; ++column) {
+            const Rgb& rgb = image.at(column, row);
+            bgr.at<cv::Vec3b>(row, column) = {rgb[2], rgb[1], rgb[0]};
+        }
+    // Encoded in memory, so that the file's name need not end in ".png" and a full disk is noticed.
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".png", bgr, bytes);
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    stream.close();
+    if (!stream) throw InputError({file, 0, 0, {}}, "a file that cannot be written", "a writable path for the picture");
+}
+
+}  // namespace selvage
