@@ -1,0 +1,35 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace selvage {
+
+/// What the command line asks for; returns the exit code.
+using Action = std::function<int()>;
+
+/// Adds one subcommand with its options and its help; when the command line names it, `chosen` becomes its action.
+using AddCommand = void(CLI::App& program, Action& chosen);
+
+AddCommand add_drape_command, add_plan_command, add_check_command, add_render_command, add_info_command,
+    add_scenes_command, add_fabrics_command, add_schema_command, add_validate_command, add_bench_command;
+
+/// The scene that a subcommand works on.
+struct SceneChoice {
+    std::string source;                  ///< Path of a TOML file, or `builtin:NAME`.
+    std::vector<std::string> overrides;  ///< `table.key=value`, each.
+};
+
+/// Adds the positional SCENE and the option --set, which fill `choice`.
+/// @param default_scene  taken when SCENE is not given; empty: SCENE is required
+void add_scene_options(CLI::App& command, SceneChoice& choice, const std::string& default_scene = {});
+
+/// Returns the valid subcommand or option closest to the first one on the command line that `program` does not know,
+/// or "" if none is close.
+std::string nearest_usage(const CLI::App& program, const std::vector<std::string>& arguments);
+
+}  // namespace selvage
