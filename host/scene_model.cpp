@@ -1,0 +1,145 @@
+#include "host/scene_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/garment/assemble.hpp"
+#include "host/garment/catalogue.hpp"
+#include "host/garment/mannequin.hpp"
+#include "host/garment/sheet.hpp"
+#include "host/garment/transfer.hpp"
+#include "io/mesh_obj.hpp"
+#include "io/pattern_json.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr int coarsest_vertices = 300;   // a dense factorisation of this size costs less than a fine matrix product
+
+MannequinMeasures body_measures(const BodyScene& body)
+{
+    MannequinMeasures measures = mannequin_size(body.size);
+    const auto take = [](double& to, double given) {
+        if (!std::isnan(given)) to = given;
+    };
+    take(measures.stature, body.stature);
+    take(measures.bust, body.bust);
+    take(measures.waist, body.waist);
+    take(measures.hips, body.hips);
+    take(measures.shoulder_width, body.shoulder_width);
+    take(measures.neck, body.neck);
+    take(measures.arm_length, body.arm_length);
+    take(measures.arm_angle, body.arm_angle);
+    return measures;
+}
+
+Pattern read_pattern(const Scene& scene)
+{
+    constexpr std::string_view prefix = "builtin:";
+    const std::string& name = scene.garment.pattern;
+    Pattern pattern = name.starts_with(prefix) ? builtin_pattern(name.substr(prefix.size()), scene.garment.size)
+                                               : read_pattern_json(scene.resolve(name), scene.garment);
+    for (PatternPanel& panel : pattern.panels) panel.translation += scene.garment.translation;
+    return pattern;
+}
+
+Cloth sheet_at(const Scene& scene, int index, int resolution)
+{
+    SheetScene sheet = scene.sheets[index];
+    sheet.resolution = resolution;
+    const std::string key = "sheet[" + std::to_string(index) + "]";
+    if (sheet.shape != "mesh") return make_sheet(sheet, scene.pins, scene.file, key);
+    std::vector<Vec2> texture;
+    const TriangleMesh mesh = read_obj(scene.resolve(sheet.mesh), sheet.unit, sheet.up_axis, &texture);
+    return sheet_from_mesh(mesh, texture, sheet, scene.pins, sheet.mesh, key);
+}
+
+// The cloth of the scene `level` halvings of its resolution away; empty if it cannot be made coarser.
+Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
+{
+    Cloth cloth;
+    const double factor = std::pow(2.0, level);
+    if (scene.has_garment())
+        cloth = assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric, scene.panel_fabrics,
+                                 scene.garment.pattern);
+    for (int i = 0; i < int(scene.sheets.size()); ++i) {
+        const SheetScene& sheet = scene.sheets[i];
+        if (level > 0 && sheet.shape == "mesh") return {};
+        const int resolution = int(std::ceil((sheet.resolution - 1) / factor)) + 1;
+        append_cloth(cloth, sheet_at(scene, i, std::max(resolution, 3)));
+    }
+    return cloth;
+}
+
+void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& model)
+{
+    if (scene.solver.preconditioner == "block_jacobi") return;
+    for (int level = 1; level < 10; ++level) {
+        const Cloth& finer = level == 1 ? model.cloth : model.coarser.back();
+        if (int(finer.positions.size()) <= coarsest_vertices) return;
+        Cloth coarse = cloth_at_level(scene, pattern, level);
+        // Where short outline edges keep the mesh fine, a coarser level is no longer worth its cost.
+        if (coarse.positions.empty() || coarse.positions.size() * 10 > finer.positions.size() * 7) return;
+        model.transfers.push_back(make_transfer(coarse, finer));
+        model.coarser.push_back(std::move(coarse));
+    }
+}
+
+double typical_edge(const Cloth& cloth)
+{
+    double total = 0;
+    for (const Face& f : cloth.faces)
+        for (int k = 0; k < 3; ++k)
+            total += (cloth.panel_coordinates[f[k]] - cloth.panel_coordinates[f[(k + 1) % 3]]).norm();
+    return cloth.faces.empty() ? 0.01 : total / (3 * double(cloth.faces.size()));
+}
+
+}  // namespace
+
+std::vector<Body> build_bodies(const Scene& scene)
+{
+    std::vector<Body> bodies;
+    for (int i = 0; i < int(scene.bodies.size()); ++i) {
+        const BodyScene& body = scene.bodies[i];
+        if (body.shape == "mannequin") {
+            bodies.push_back(make_body(body, scene, i, make_mannequin(body_measures(body))));
+        } else if (body.shape == "mesh") {
+            const TriangleMesh mesh = read_obj(scene.resolve(body.mesh), body.unit, body.up_axis);
+            require_closed_body(mesh, body.mesh);
+            bodies.push_back(make_body(body, scene, i, mesh));
+        } else {
+            bodies.push_back(make_body(body, scene, i));
+        }
+    }
+    return bodies;
+}
+
+SceneModel build_scene_model(const Scene& scene)
+{
+    SceneModel result;
+    Pattern pattern;
+    if (scene.has_garment()) pattern = read_pattern(scene);
+    result.model.cloth = cloth_at_level(scene, pattern, 0);
+    result.model.fabrics = scene.fabrics;
+    result.model.bodies = build_bodies(scene);
+    add_coarser_levels(scene, pattern, result.model);
+    result.warnings = pattern.warnings;
+    const auto& odd = result.model.cloth.warnings;
+    result.warnings.insert(result.warnings.end(), odd.begin(), odd.end());
+    result.sews = !result.model.cloth.seam_pairs.empty();
+    result.edge_length = typical_edge(result.model.cloth);
+    return result;
+}
+
+Box cloth_reach(const Cloth& cloth)
+{
+    Vec3 low = cloth.positions.front(), high = low;
+    for (const Vec3& x : cloth.positions) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    const Vec3 margin = Vec3::Constant(0.25 * (high - low).norm());
+    return {low - margin, high + margin};
+}
+
+}  // namespace selvage

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/solver/phase.hpp"
+#include "io/scene.hpp"
+
+namespace selvage {
+
+/// The cloth and the bodies of a scene, assembled; what was odd but usable is in `warnings`.
+struct SceneModel {
+    ClothModel model;
+    std::vector<std::string> warnings;
+    bool sews = false;             ///< There are seams to close before draping.
+    double edge_length = 0.01;     ///< Typical rest edge of the finest cloth [m].
+};
+
+/// Reads, meshes and places everything that a scene names.
+/// @throws InputError for any fault of a pattern, mesh, measure or resolution
+SceneModel build_scene_model(const Scene& scene);
+
+/// Returns the bodies of a scene without its cloth.
+std::vector<Body> build_bodies(const Scene& scene);
+
+/// Returns where the cloth may go: its start box grown by its own size.
+Box cloth_reach(const Cloth& cloth);
+
+}  // namespace selvage
