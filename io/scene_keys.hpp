@@ -79,7 +79,7 @@
     KEY(int, newton_iterations, 12, "1", 1, 1000, "Newton iterations per step before it is retried smaller")     \
     KEY(int, linear_iterations, 600, "1", 1, 100000, "conjugate-gradient iterations per Newton iteration")       \
     WORD(preconditioner, "auto", "auto|block_jacobi|multigrid", "preconditioner of the conjugate gradients; auto: multigrid where levels exist") \
-    WORD(precision, "double", "float|double", "precision of the linear solves; state and forces are always double") \
+    WORD(precision, "float", "float|double", "precision of the linear solves; state and forces are always double") \
     KEY(int, threads, 0, "1", 0, 1024, "worker threads; 0: all cores")                                           \
     VEC3(gravity, 0, 0, -9.81, "m/s^2", "acceleration")                                                          \
     KEY(double, frame_rate, 30, "1/s", 0.01, 10000, "frames written per simulated second")                       \
@@ -99,8 +99,8 @@
     KEY(double, scale, 1, "1", 0, 1e6, "multiplies every bending rigidity")
 
 #define SEAMS_KEYS(KEY, WORD, VEC3)                                                                              \
-    KEY(double, stiffness, 400, "N/m", 1e-3, 1e7, "seam force per pair and metre of gap")                        \
-    KEY(double, force_limit, 0.2, "N", 1e-6, 1e4, "seam force of a pair that is far apart")                      \
+    KEY(double, stiffness, 4e4, "N/m^2", 1e-1, 1e9, "seam force per metre of seam and metre of gap")             \
+    KEY(double, force_limit, 6, "N/m", 1e-4, 1e6, "seam force per metre of seam where the edges are far apart")  \
     KEY(double, closed, 0.002, "m", 1e-6, 0.1, "gap below which a pair counts as closed and is joined")          \
     KEY(double, max_time, 6, "s", 0.01, 1e4, "simulated time after which sewing gives up")
 

@@ -46,7 +46,8 @@ PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, D
             const StepEvent event{progress.time, control.dt(), control.report().iterations,
                                   control.report().linear_iterations, residual};
             if (!after_step(event)) return PhaseEnd::stopped;
-            if (--progress.hold > 0 || residual > progress.switch_residual) continue;
+            const bool wait = --progress.hold > 0 || residual > progress.switch_residual;
+            if (wait && residual > options.tolerance) continue;
         }
         const PhaseEnd end = relax(phase, options, progress, after_step);
         if (end != PhaseEnd::time_limit || options.statics_only) return end;

@@ -42,9 +42,17 @@ void FabricContact::update(State& state)
 
 bool FabricContact::crossed(const State& state, const std::vector<real>& from)
 {
+    const int vs = state.size.vertex_stride;
     const std::vector<BodyCrossing> crossings =
-        query_.crossings(from.data(), state.pos.data(), state.size.vertex_stride, state.size.vertex_count);
-    return std::any_of(crossings.begin(), crossings.end(), [](const BodyCrossing& c) { return c.body >= 0; });
+        query_.crossings(from.data(), state.pos.data(), vs, state.size.vertex_count);
+    for (int v = 0; v < state.size.vertex_count; ++v) {
+        if (crossings[v].body < 0) continue;
+        double squared = 0;
+        for (int c = 0; c < 3; ++c) squared += std::pow(state.pos[c * vs + v] - from[c * vs + v], 2);
+        // What has just dipped below the surface is driven out again by the barrier; deeper it may come out elsewhere.
+        if ((1 - crossings[v].fraction) * std::sqrt(squared) > 2 * gap_) return true;
+    }
+    return false;
 }
 
 }  // namespace selvage

@@ -77,6 +77,16 @@ public:
                (pattern_.face_place.size() + pattern_.hinge_place.size()) * sizeof(std::uint16_t);
     }
 
+    void run(LinearOperation operation) override
+    {
+        switch (operation) {
+        case LinearOperation::product: matrix_.multiply(p_, q_); break;
+        case LinearOperation::precondition: precondition(); break;
+        case LinearOperation::dot: dot(r_, z_); break;
+        case LinearOperation::update: advance(linear(1e-12)); break;
+        }
+    }
+
 private:
     void precondition()
     {
@@ -86,10 +96,19 @@ private:
             jacobi_.apply(r_, z_);
     }
 
+    // x += step p, r -= step q.
+    void advance(linear step)
+    {
+        for_each_item(int(x_.size()), [=, x = x_.data(), r = r_.data(), p = p_.data(), q = q_.data()](int i) {
+            x[i] += step * p[i];
+            r[i] -= step * q[i];
+        });
+    }
+
     void iterate(double tolerance, LinearResult& result)
     {
         const int size = int(x_.size());
-        linear *x = x_.data(), *r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
+        linear *z = z_.data(), *p = p_.data();
         precondition();
         p_ = z_;
         double rz = dot(r_, z_);
@@ -101,11 +120,7 @@ private:
                 if (result.iterations == 0) x_ = p_;   // a descent direction is better than none
                 return;
             }
-            const linear step = linear(rz / curvature);
-            for_each_item(size, [=](int i) {
-                x[i] += step * p[i];
-                r[i] -= step * q[i];
-            });
+            advance(linear(rz / curvature));
             ++result.iterations;
             result.relative_residual = std::sqrt(dot(r_, r_));
             if (result.relative_residual <= tolerance) return;

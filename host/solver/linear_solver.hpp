@@ -37,6 +37,9 @@ struct LinearResult {
     bool negative_curvature = false;   ///< A direction p with p.Ap <= 0 was met; x is what stood before it.
 };
 
+/// The parts of one iteration, to be measured one by one.
+enum class LinearOperation { product, precondition, dot, update };
+
 /// Preconditioned conjugate gradients on 3x3 blocks (D11).
 class LinearSolver {
 public:
@@ -48,6 +51,8 @@ public:
     /// @param x  like b; overwritten
     virtual LinearResult solve(const double* b, double tolerance, double* x) = 0;
     virtual std::size_t bytes() const = 0;   ///< Memory held.
+    /// Runs one operation on the vectors that the last solve left behind.
+    virtual void run(LinearOperation operation) = 0;
 };
 
 /// Interpolations between particles from the coarse to the next finer level, finest first; may be empty.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/solver/launch.hpp"
+#include "kernels/stages/limit_step.h"
 
 namespace selvage {
 namespace {
@@ -102,12 +103,17 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
         return linear_.solve(downhill_.data(), options.linear_tolerance, direction_.data());
     });
     report.linear_iterations += result.iterations;
-    double slope = -dot3(state_, downhill_, direction_);
-    if (slope > 0) {   // only an indefinite matrix can give this
+    if (dot3(state_, downhill_, direction_) < 0)   // only an indefinite matrix can give this
         for_each_item(int(direction_.size()), [d = direction_.data()](int i) { d[i] = -d[i]; });
-        slope = -slope;
+    if (contact_) {
+        const std::vector<real> free_direction = direction_;
+        launch<limit_step_vertex>(state_.size.vertex_count,
+                                  limit_step_args{state_.pos.data(), state_.contact_normal.data(),
+                                                  state_.contact_offset.data(), direction_.data(),
+                                                  state_.size.vertex_stride});
+        if (dot3(state_, downhill_, direction_) <= 0) direction_ = free_direction;
     }
-    return slope;
+    return -dot3(state_, downhill_, direction_);
 }
 
 // Moves to base + fraction * direction.
@@ -198,6 +204,13 @@ double Newton::energy_of(std::string_view name) const
     for (const Term* term : conservative_)
         if (term->name == name) return term->energy(state_, params_);
     return 0;
+}
+
+double Newton::potential_energy() const
+{
+    double total = 0;
+    for (const Term* term : conservative_) total += term->energy(state_, params_);
+    return total;
 }
 
 double Newton::kinetic_energy() const

@@ -46,8 +46,9 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
     params.bending.scale = scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
     params.damping.scale = any_fabric(model, &Fabric::damping) ? 1 : 0;
     if (sewing) {
-        params.seam.stiffness = scene.seams.stiffness;
-        params.seam.force_limit = scene.seams.force_limit;
+        // A stitch stands for one edge length of seam, so that sewing does not depend on the resolution.
+        params.seam.stiffness = scene.seams.stiffness * model.edge_length;
+        params.seam.force_limit = scene.seams.force_limit * model.edge_length;
     }
     if (model.model.bodies.empty() || !scene.contact.body) return params;
     params.body_contact.stiffness = contact_stiffness(scene, model);

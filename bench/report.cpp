@@ -1,0 +1,131 @@
+#include "bench/report.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/version.hpp"
+
+namespace selvage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_name()
+{
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
+    return "unknown";
+}
+
+std::string compiler()
+{
+#ifdef __clang__
+    return "clang " __clang_version__;
+#else
+    return "g++ " __VERSION__;
+#endif
+}
+
+std::string build_type()
+{
+#if defined(__OPTIMIZE__) && defined(NDEBUG)
+    return "optimised, without assertions";
+#elif defined(__OPTIMIZE__)
+    return "optimised, with assertions";
+#else
+    return "not optimised";
+#endif
+}
+
+std::string instruction_set()
+{
+#if defined(__AVX512F__)
+    return "avx512f";
+#elif defined(__AVX2__) && defined(__FMA__)
+    return "avx2 fma";
+#elif defined(__AVX2__)
+    return "avx2";
+#else
+    return "compiler's default";
+#endif
+}
+
+void extend_context(const BenchContext& context, Json& to)
+{
+    to["version"] = version;
+    to["compiler"] = compiler();
+    to["build_type"] = build_type();
+    to["instruction_set"] = instruction_set();
+    to["cpu_name"] = cpu_name();
+    to["threads"] = context.threads;
+    to["copy_bytes_per_second"] = context.copy_bandwidth;
+    for (const auto& [name, size] : context.sizes) to[name] = size;
+}
+
+// Google Benchmark appends its settings to a name: they say nothing about what was measured.
+void shorten_names(Json& benchmarks)
+{
+    for (Json& run : benchmarks)
+        for (const char* key : {"name", "run_name"}) {
+            const std::string name = run[key];
+            run[key] = name.substr(0, name.find("/min_time:"));
+        }
+}
+
+Json run_registered()
+{
+    std::ostringstream text;
+    benchmark::JSONReporter reporter;
+    reporter.SetOutputStream(&text);
+    reporter.SetErrorStream(&std::cerr);
+    benchmark::RunSpecifiedBenchmarks(&reporter, ".");
+    return Json::parse(text.str());
+}
+
+std::string machine_lines(const Json& context, const BenchContext& bench)
+{
+    std::string sizes;
+    for (const auto& [name, size] : bench.sizes) sizes += fmt::format("{}{} {}", sizes.empty() ? "" : ", ", size, name);
+    return fmt::format("selvage {}, {}, {}, {}\n{}, {} cores, {} threads, copies {:.2f} GB/s\n{}\n\n",
+                       context["version"].get<std::string>(), context["compiler"].get<std::string>(),
+                       context["build_type"].get<std::string>(), context["instruction_set"].get<std::string>(),
+                       context["cpu_name"].get<std::string>(), context["num_cpus"].get<int>(), bench.threads,
+                       1e-9 * bench.copy_bandwidth, sizes);
+}
+
+std::string table(const Json& benchmarks)
+{
+    std::size_t width = 6;
+    for (const Json& run : benchmarks) width = std::max(width, run["name"].get<std::string>().size());
+    std::string text = fmt::format("{:<{}} {:>10} {:<8} {:>10} {:>12} {:>10} {:>9}\n", "kernel", width, "items", "", "ns/item",
+                                   "bytes/item", "GB/s", "of copy");
+    for (const Json& run : benchmarks)
+        text += fmt::format("{:<{}} {:>10.0f} {:<8} {:>10.3f} {:>12.1f} {:>10.2f} {:>8.1f}%\n",
+                            run["name"].get<std::string>(), width, run["items"].get<double>(),
+                            run["label"].get<std::string>(), run["ns_per_item"].get<double>(),
+                            run["bytes_per_item"].get<double>(), 1e-9 * run["bytes_per_second"].get<double>(),
+                            100 * run["copy_fraction"].get<double>());
+    return text + "\nAbove 100 % of the copy speed the arrays stay in the caches from call to call.\n";
+}
+
+}  // namespace
+
+void run_and_report(const BenchContext& context, bool json, std::ostream& out)
+{
+    Json result = run_registered();
+    extend_context(context, result["context"]);
+    shorten_names(result["benchmarks"]);
+    if (json)
+        out << result.dump(2) << '\n';
+    else
+        out << machine_lines(result["context"], context) << table(result["benchmarks"]);
+}
+
+}  // namespace selvage

@@ -1,0 +1,193 @@
+#include "host/collision/body_bvh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+#include <embree3/rtcore.h>
+
+namespace selvage {
+namespace {
+
+constexpr double rounding = 1e-6;         // of a length, in single precision, with a wide margin
+constexpr double on_surface = 1e-9;       // [m]; a path may start this far inside and still enter
+
+struct Corners {
+    Vec3 a, b, c;
+};
+
+struct NearestSearch {
+    const Corners* corners;
+    const int* triangles;
+    Vec3 x;
+    double slack;             // [m]; keeps the single-precision search from missing the closest triangle
+    NearestTriangle best;
+
+    bool improve(int triangle, double squared_distance)
+    {
+        const bool closer = squared_distance < best.squared_distance ||
+                            (squared_distance == best.squared_distance &&
+                             (best.triangle < 0 || triangle < best.triangle));
+        if (closer) best = {triangle, squared_distance};
+        return closer;
+    }
+    float radius() const { return float(std::sqrt(best.squared_distance) * (1 + rounding) + slack); }
+};
+
+bool visit_triangle(RTCPointQueryFunctionArguments* args)
+{
+    NearestSearch& search = *static_cast<NearestSearch*>(args->userPtr);
+    const Corners& t = search.corners[args->primID];
+    const double squared_distance = closest_on_triangle(search.x, t.a, t.b, t.c).squared_distance;
+    if (!search.improve(search.triangles[args->primID], squared_distance)) return false;
+    args->query->radius = search.radius();
+    return true;
+}
+
+struct EntrySearch {
+    RTCIntersectContext context;   // first, so that the library's pointer to it is one to this struct
+    const BodySurface* surface;
+    const int* triangles;
+    Vec3 x0, x1;
+    SurfaceEntry first;
+};
+
+/// Notes the hit if the path enters there, and rejects it so that the ray goes on to every other triangle.
+void note_entry(const RTCFilterFunctionNArguments* args)
+{
+    args->valid[0] = 0;
+    EntrySearch& search = *reinterpret_cast<EntrySearch*>(args->context);
+    const int triangle = search.triangles[RTCHitN_primID(args->hit, args->N, 0)];
+    const Vec3& normal = search.surface->face_normal(triangle);
+    const Vec3& corner = search.surface->corner(triangle, 0);
+    const double start = normal.dot(search.x0 - corner), end = normal.dot(search.x1 - corner);
+    if (!(end < start) || start < -on_surface || end > 0) return;
+    const double fraction = std::clamp(start / (start - end), 0.0, 1.0);
+    SurfaceEntry& first = search.first;
+    if (fraction < first.fraction || (fraction == first.fraction && triangle < first.triangle))
+        first = {triangle, fraction};
+}
+
+bool touches(const BodySurface& surface, int triangle, const Box& reach)
+{
+    Box box;
+    for (int k = 0; k < 3; ++k) box.extend(surface.corner(triangle, k));
+    return reach.intersects(box);
+}
+
+}  // namespace
+
+EmbreeDevice::EmbreeDevice() : handle_(rtcNewDevice(nullptr))
+{
+    if (!handle_) throw std::runtime_error("Embree does not start on this machine");
+}
+
+EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(static_cast<RTCDevice>(handle_)); }
+
+struct BodyBvh::Impl {
+    const BodySurface* surface;
+    std::vector<int> triangles;       // of the surface, by index in the hierarchy
+    std::vector<Corners> corners;
+    Vec3 origin = Vec3::Zero();       // single-precision coordinates are relative to it
+    double extent = 0;                // largest distance of a triangle from the origin [m]
+    RTCScene scene = nullptr;
+
+    ~Impl() { rtcReleaseScene(scene); }
+    double slack(const Vec3& x) const { return rounding * (extent + (x - origin).norm()); }
+};
+
+BodyBvh::BodyBvh(const EmbreeDevice& device, const BodySurface& surface, const Box& reach)
+    : impl_(std::make_unique<Impl>())
+{
+    impl_->surface = &surface;
+    Box box;
+    for (int t = 0; t < surface.triangle_count(); ++t) {
+        if (!surface.has_area(t) || !touches(surface, t, reach)) continue;
+        impl_->triangles.push_back(t);
+        impl_->corners.push_back({surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)});
+        for (int k = 0; k < 3; ++k) box.extend(surface.corner(t, k));
+    }
+    const int count = triangle_count();
+    if (count > 0) {
+        impl_->origin = box.center();
+        impl_->extent = box.diagonal().norm() / 2;
+    }
+    const RTCDevice rtc = static_cast<RTCDevice>(device.handle());
+    impl_->scene = rtcNewScene(rtc);
+    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
+    if (count > 0) {
+        const RTCGeometry geometry = rtcNewGeometry(rtc, RTC_GEOMETRY_TYPE_TRIANGLE);
+        float* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), std::size_t(3) * count));
+        unsigned* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), std::size_t(count)));
+        if (!vertex || !index) throw std::bad_alloc();
+        for (const Corners& t : impl_->corners)
+            for (const Vec3* corner : {&t.a, &t.b, &t.c})
+                for (int c = 0; c < 3; ++c) *vertex++ = float((*corner)[c] - impl_->origin[c]);
+        for (int k = 0; k < 3 * count; ++k) index[k] = unsigned(k);
+        rtcSetGeometryIntersectFilterFunction(geometry, note_entry);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(impl_->scene, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(impl_->scene);
+    if (rtcGetDeviceError(rtc) != RTC_ERROR_NONE) throw std::runtime_error("Embree failed to build a body's hierarchy");
+}
+
+BodyBvh::~BodyBvh() = default;
+BodyBvh::BodyBvh(BodyBvh&&) noexcept = default;
+BodyBvh& BodyBvh::operator=(BodyBvh&&) noexcept = default;
+
+int BodyBvh::triangle_count() const { return int(impl_->triangles.size()); }
+
+double BodyBvh::far_radius(const Vec3& x) const { return 1.01 * ((x - impl_->origin).norm() + impl_->extent); }
+
+NearestTriangle BodyBvh::nearest(const Vec3& x, double radius, int hint) const
+{
+    NearestSearch search{impl_->corners.data(), impl_->triangles.data(), x, impl_->slack(x), {-1, radius * radius}};
+    if (hint >= 0) search.improve(hint, impl_->surface->closest(x, hint).squared_distance);
+
+    const Vec3 local = x - impl_->origin;
+    RTCPointQuery query;
+    query.x = float(local.x());
+    query.y = float(local.y());
+    query.z = float(local.z());
+    query.time = 0;
+    query.radius = search.radius();
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(impl_->scene, &query, &context, visit_triangle, &search);
+    return search.best;
+}
+
+SurfaceEntry BodyBvh::first_entry(const Vec3& x0, const Vec3& x1) const
+{
+    EntrySearch search{{}, impl_->surface, impl_->triangles.data(), x0, x1, {}};
+    const double length = (x1 - x0).norm();
+    if (!(length > 0)) return search.first;
+    // Longer by the rounding at both ends; whether a triangle near an end counts is decided in double precision.
+    const double slack = impl_->slack(x0);
+    const Vec3 direction = (x1 - x0) / length, origin = x0 - slack * direction - impl_->origin;
+
+    rtcInitIntersectContext(&search.context);
+    RTCRayHit ray{};
+    ray.ray.org_x = float(origin.x());
+    ray.ray.org_y = float(origin.y());
+    ray.ray.org_z = float(origin.z());
+    ray.ray.dir_x = float(direction.x());
+    ray.ray.dir_y = float(direction.y());
+    ray.ray.dir_z = float(direction.z());
+    ray.ray.tnear = 0;
+    ray.ray.tfar = float(length + 2 * slack);
+    ray.ray.mask = ~0u;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(impl_->scene, &search.context, &ray);
+    return search.first;
+}
+
+}  // namespace selvage

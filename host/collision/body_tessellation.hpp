@@ -1,0 +1,29 @@
+#pragma once
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+/// Returns an icosahedron refined `level` times, its vertices on the sphere: 20 * 4^level faces.
+TriangleMesh sphere_mesh(const Vec3& center, double radius, int level);
+
+/// Returns a square of the given width [m], counter-clockwise about its unit normal.
+TriangleMesh square_mesh(const Vec3& center, const Vec3& normal, double width);
+
+/// Returns the closed surface at distance `radius` from the segment between two distinct ends.
+TriangleMesh capsule_mesh(const Vec3& first, const Vec3& last, double radius);
+
+/// Returns an upright, closed cylinder with sharp rims, `segment_count` around, `center` in the middle of its axis.
+/// The discs are graded: each ring towards their centre has half as many vertices.
+/// @param segment_count  a power of two, >= 16
+TriangleMesh cylinder_mesh(const Vec3& center, double radius, double height, int segment_count = 256);
+
+/// Returns the enclosed volume [m^3], positive if the faces are counter-clockwise seen from outside.
+double signed_volume(const TriangleMesh& mesh);
+
+/// True if every directed edge is met by its reverse exactly once, coincident vertices counted as one.
+bool is_closed(const TriangleMesh& mesh);
+
+/// Returns for every vertex the first vertex with exactly the same position.
+std::vector<int> first_coincident_vertex(const TriangleMesh& mesh);
+
+}  // namespace selvage

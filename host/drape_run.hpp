@@ -1,0 +1,53 @@
+#pragma once
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/run.hpp"
+#include "host/run_recorder.hpp"
+#include "host/scene_model.hpp"
+#include "host/solver/equilibrium.hpp"
+#include "host/solver/plan.hpp"
+#include "host/solver/sewing.hpp"
+
+namespace selvage {
+
+/// One run from the assembled scene to its end; owns everything that lives as long as the run.
+class DrapeRun {
+public:
+    DrapeRun(const Scene& scene, const RunOptions& options);
+    RunOutcome execute();
+
+private:
+    void start_phase(const std::string& name, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
+    void restore();
+    void save();
+    PhaseEnd run_sewing();
+    PhaseEnd run_drape_phase();
+    bool after_step(const StepEvent& event);
+    double elapsed() const;
+    RunOutcome conclude(RunStatus status, const std::string& message);
+    RunOutcome conclude_stopped();
+    RunOutcome conclude_unsewn();
+    RunOutcome conclude_draped(PhaseEnd end);
+
+    const Scene& scene_;
+    RunOptions options_;
+    std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+    SceneModel model_;
+    RunPlan plan_;
+    Profile profile_;
+    std::optional<BodyQuery> query_;
+    std::unique_ptr<Phase> phase_;
+    std::string phase_name_;
+    SewingProgress sewing_;
+    DrapeProgress draping_;
+    RunCounters counters_;
+    double wall_before_ = 0;        ///< Of the runs that this one resumes [s].
+    double last_checkpoint_ = 0;    ///< elapsed() then [s].
+    bool wall_limit_hit_ = false;
+    std::unique_ptr<RunRecorder> recorder_;
+};
+
+}  // namespace selvage

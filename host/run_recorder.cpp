@@ -1,0 +1,204 @@
+#include "host/run_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <tbb/global_control.h>
+
+#include "host/cloth_picture.hpp"
+#include "host/measure.hpp"
+#include "io/errors.hpp"
+#include "io/memory.hpp"
+#include "io/mesh_obj.hpp"
+#include "io/version.hpp"
+
+namespace selvage {
+namespace {
+
+void make_folder(const std::string& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw InputError({folder, 0, 0, {}}, error.message(), "a folder that can be made or written");
+}
+
+TrajectoryLayout trajectory_layout(const Scene& scene, const Cloth& cloth, const Topology& topology)
+{
+    TrajectoryLayout layout;
+    layout.point_count = int(cloth.positions.size());
+    layout.triangles = shared_faces(cloth, topology);
+    layout.panel_coordinates = cloth.panel_coordinates;
+    for (int p = 0; p < int(cloth.panels.size()); ++p) {
+        layout.panel.insert(layout.panel.end(), std::size_t(cloth.panels[p].vertex_count), p);
+        layout.panel_names.push_back(cloth.panels[p].name);
+    }
+    layout.rest_edge_lengths = rest_edge_lengths(cloth);
+    layout.seam_pairs = cloth.seam_pairs;
+    layout.scene_text = scene.text;
+    layout.version = version;
+    layout.grid = position_grid(scene.output.precision);
+    return layout;
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(const Scene& scene, const SceneModel& model, const RunOptions& options, bool resume)
+    : scene_(scene), model_(model), folder_(options.folder)
+{
+    make_folder(folder_);
+    if (!resume)
+        for (const char* stale : {"summary.json", "run.h5", "run.xdmf", "sewing.h5", "sewing.xdmf", "final.obj",
+                                  "preview.png", "body.obj", "checkpoint.h5"})
+            std::filesystem::remove(folder_ + "/" + stale);
+    std::filesystem::remove(folder_ + "/summary.json");
+    ProgressOptions progress;
+    progress.path = folder_ + "/progress.jsonl";
+    progress.append = resume;
+    progress.quiet = options.quiet;
+    progress.tolerance = scene.solver.tolerance;
+    if (scene.solver.until != "equilibrium") progress.end_time = std::stod(scene.solver.until);
+    progress_ = std::make_unique<ProgressReport>(progress);
+}
+
+RunRecorder::~RunRecorder() = default;
+
+void RunRecorder::open_phase(const std::string& name, const Topology& topology, int keep_frames)
+{
+    sewing_phase_ = name == "sew";
+    last_frame_ = -1;
+    next_frame_ = 0;
+    if (sewing_phase_ && !scene_.output.sewing) return;
+    const std::string path = folder_ + (sewing_phase_ ? "/sewing.h5" : "/run.h5");
+    if (keep_frames >= 0)
+        trajectory_.emplace(TrajectoryWriter::resume(path, keep_frames));
+    else
+        trajectory_.emplace(TrajectoryWriter::create(path, trajectory_layout(scene_, model_.model.cloth, topology)));
+    if (keep_frames > 0) {
+        last_frame_ = trajectory_->last_time();
+        next_frame_ = last_frame_ + 1 / scene_.solver.frame_rate;
+    }
+}
+
+void RunRecorder::close_phase()
+{
+    if (!trajectory_) return;
+    trajectory_->finish();
+    if (!sewing_phase_) frames_ = trajectory_->frame_count();
+    trajectory_.reset();
+}
+
+void RunRecorder::report(const std::string& phase, const StepEvent& event, int steps)
+{
+    ProgressState state;
+    state.phase = phase;
+    state.time = event.time;
+    state.step = steps;
+    state.frames = frame_count();
+    if (!sewing_phase_) state.residual = event.residual;   // while sewing it is a gap
+    progress_->update(state);
+}
+
+void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force)
+{
+    iterations_since_frame_ += event.newton_iterations;
+    const double interval = 1 / scene_.solver.frame_rate;
+    // A frame is also due when the step after this one would overshoot the frame's time by more than it is early.
+    const bool due = scene_.output.frames && event.dt > 0 && event.time >= next_frame_ - 1e-9;
+    if (!trajectory_ || !(due || force)) return;
+    FrameScalars scalars;
+    scalars.time = event.time > last_frame_ ? event.time : last_frame_ + interval;
+    scalars.kinetic_energy = phase.newton().kinetic_energy();
+    scalars.total_energy = phase.newton().potential_energy() + scalars.kinetic_energy;
+    scalars.residual = event.residual;
+    scalars.wall_seconds = wall_seconds;
+    scalars.contacts = phase.contact() ? phase.contact()->contact_count() : 0;
+    scalars.iterations = iterations_since_frame_;
+    trajectory_->write_frame(phase.positions(), scalars);
+    iterations_since_frame_ = 0;
+    last_frame_ = scalars.time;
+    next_frame_ = interval * (std::floor(scalars.time / interval + 1e-6) + 1);
+}
+
+void RunRecorder::write_meshes(const std::vector<Vec3>& positions)
+{
+    const Cloth& cloth = model_.model.cloth;
+    std::vector<std::vector<Face>> faces(cloth.panels.size());
+    std::vector<ObjObject> objects;
+    for (int p = 0; p < int(cloth.panels.size()); ++p) {
+        const ClothPanel& panel = cloth.panels[p];
+        for (int f = panel.first_face; f < panel.first_face + panel.face_count; ++f) {
+            Face face = cloth.faces[f];
+            for (int& v : face) v -= panel.first_vertex;
+            faces[p].push_back(face);
+        }
+        const auto range = [&](const auto& all) { return std::span(all).subspan(panel.first_vertex, panel.vertex_count); };
+        objects.push_back({panel.name, range(positions), faces[p], range(cloth.panel_coordinates)});
+    }
+    write_obj(folder_ + "/final.obj", objects);
+    if (model_.model.bodies.empty()) return;
+    objects.clear();
+    for (const Body& body : model_.model.bodies) objects.push_back({body.name, body.mesh.vertices, body.mesh.faces});
+    write_obj(folder_ + "/body.obj", objects);
+}
+
+void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topology)
+{
+    if (!scene_.output.picture) return;
+    PictureOptions options;
+    options.width = scene_.output.picture_width;
+    options.samples_per_axis = scene_.output.picture_samples;
+    draw_cloth(folder_ + "/preview.png", model_.model, positions, topology, options);
+}
+
+void RunRecorder::conclude(RunStatus status, Phase& phase, const RunPlan& plan, const BodyQuery* query,
+                           const RunCounters& counters, const Profile& profile, double residual, double wall_seconds,
+                           const std::string& message)
+{
+    const std::vector<Vec3> positions = phase.positions();
+    write_meshes(positions);
+    draw(positions, phase.topology());
+    const Cloth& cloth = model_.model.cloth;
+    RunSummary s;
+    s.status = status;
+    s.scene = scene_.name;
+    s.version = version;
+    s.precision = scene_.solver.precision;
+    s.message = message;
+    s.threads = int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    s.vertices = phase.state().size.vertex_count;
+    s.triangles = int(cloth.faces.size());
+    s.steps = counters.steps;
+    s.frames = frames_;
+    s.newton_iterations = counters.newton_iterations;
+    s.linear_iterations = counters.linear_iterations;
+    s.simulated_s = counters.simulated;
+    for (const auto& [name, seconds] : counters.phases) s.phases.push_back({name, seconds});
+    for (const KernelRecord& k : profile.records()) s.kernels.push_back({k.name, k.calls, k.seconds, k.items, k.bytes});
+    s.active = plan.active;
+    for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
+    s.residual = residual;
+    s.energy.membrane = phase.newton().energy_of("membrane");
+    s.energy.bending = phase.newton().energy_of("bending");
+    s.energy.gravity = phase.newton().energy_of("gravity");
+    s.energy.contact = phase.newton().energy_of("body_contact");
+    s.energy.kinetic = phase.newton().kinetic_energy();
+    const StretchMeasure stretch = measure_stretch(cloth, positions);
+    s.stretch = {stretch.min, stretch.max, stretch.p99};
+    if (query && !query->empty()) {
+        const State& state = phase.state();
+        const BodyGap gap = query->measure(state.pos.data(), state.size.vertex_stride, state.size.vertex_count);
+        s.body_max_penetration = gap.max_penetration_m;
+        s.body_min_gap = gap.min_gap_m;
+    }
+    s.seam_count = int(cloth.seams.size());
+    if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
+    for (const PanelMeasure& p : measure_panels(cloth, positions))
+        s.panels.push_back({p.name, p.area_error, p.boundary_error});
+    s.warnings = model_.warnings;
+    s.peak_memory_bytes = peak_memory_bytes();
+    s.wall_s = wall_seconds;
+    write_summary(folder_ + "/summary.json", s);
+}
+
+}  // namespace selvage

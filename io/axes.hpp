@@ -1,0 +1,18 @@
+#pragma once
+#include <string_view>
+
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+/// Returns the rotation that turns a file's up direction into z and keeps right-handedness:
+/// x: (x, y, z) -> (y, z, x);  y: (x, y, z) -> (x, -z, y);  z: nothing.
+inline Mat3 z_up_from(std::string_view up_axis)
+{
+    Mat3 turn = Mat3::Identity();
+    if (up_axis == "y") turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    if (up_axis == "x") turn << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+    return turn;
+}
+
+}  // namespace selvage

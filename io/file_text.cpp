@@ -1,0 +1,24 @@
+#include "io/file_text.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "io/errors.hpp"
+
+namespace selvage {
+
+std::string read_file_text(const std::string& path, std::string_view kind)
+{
+    const InputPlace place{path, 0, 0, {}};
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        throw InputError(place, std::filesystem::exists(path, error) ? "something that is not a file" : "no such file",
+                         kind);
+    std::ifstream stream(path, std::ios::binary);
+    std::string text(std::size_t(std::filesystem::file_size(path, error)), '\0');
+    if (!stream || error || !stream.read(text.data(), std::streamsize(text.size())))
+        throw InputError(place, "a file that cannot be read", kind);
+    return text;
+}
+
+}  // namespace selvage

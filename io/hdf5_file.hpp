@@ -1,0 +1,99 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <hdf5.h>
+
+namespace selvage {
+
+/// Owns one HDF5 identifier and closes it. HDF5 is not thread-safe: use it from one thread at a time.
+class Hdf5Id {
+public:
+    using Closer = herr_t (*)(hid_t);
+
+    Hdf5Id() = default;
+    /// @throws std::runtime_error with HDF5's own words and `what` if `id` is negative.
+    Hdf5Id(hid_t id, Closer closer, std::string_view what);
+    Hdf5Id(Hdf5Id&& other) noexcept { *this = std::move(other); }
+    Hdf5Id& operator=(Hdf5Id&& other) noexcept;
+    ~Hdf5Id() { reset(); }
+
+    operator hid_t() const { return id_; }
+    void reset();
+
+private:
+    hid_t id_ = H5I_INVALID_HID;
+    Closer closer_ = nullptr;
+};
+
+/// @throws std::runtime_error with HDF5's own words and `what` if `status` is negative.
+void require_hdf5(herr_t status, std::string_view what);
+
+/// How a dataset is stored; an empty `chunk` means contiguous, or one chunk if compressed.
+struct Hdf5Storage {
+    bool compressed = false;           ///< Shuffle and gzip 1.
+    bool growing = false;              ///< The first dimension is unlimited.
+    std::vector<hsize_t> chunk;
+    bool checked = false;              ///< With a checksum per chunk: damage is found when reading.
+};
+
+enum class Hdf5Access { create, read, append };
+
+/// A file with typed access by path. Shapes are row-major; reading converts number types.
+class Hdf5File {
+public:
+    /// `create` truncates; `append` opens for writing. Both write through the commit driver.
+    /// @throws InputError if the file cannot be opened or is not HDF5.
+    Hdf5File(const std::string& path, Hdf5Access access);
+
+    const std::string& path() const { return path_; }
+    hid_t id() const { return file_; }
+    bool exists(const std::string& object) const;   ///< Every link of the path exists.
+    void flush();
+    void close() { file_.reset(); }
+
+    void make_group(const std::string& group);
+    void link(const std::string& target, const std::string& name);        ///< A second name of the same object.
+    void link_softly(const std::string& target, const std::string& name);
+
+    /// @param file_type  number type in the file
+    Hdf5Id make_dataset(const std::string& name, hid_t file_type, const std::vector<hsize_t>& shape,
+                        const Hdf5Storage& storage = {});
+    Hdf5Id open_dataset(const std::string& name) const;
+    void write(const std::string& name, hid_t file_type, const std::vector<hsize_t>& shape,
+               std::span<const double> values, const Hdf5Storage& storage = {});
+    void write(const std::string& name, hid_t file_type, const std::vector<hsize_t>& shape,
+               std::span<const std::int64_t> values, const Hdf5Storage& storage = {});
+
+    std::vector<hsize_t> shape(const std::string& name) const;
+    std::vector<double> read_reals(const std::string& name) const;
+    std::vector<std::int64_t> read_integers(const std::string& name) const;
+    /// Names of a group's members, sorted.
+    std::vector<std::string> members(const std::string& group) const;
+
+    // Attributes; a text is UTF-8 of variable length unless said otherwise.
+    void set_integers(const std::string& object, const char* name, std::span<const std::int64_t> values);
+    void set_integer(const std::string& object, const char* name, std::int64_t value);   ///< Scalar; overwrites.
+    void set_real(const std::string& object, const char* name, double value);
+    void set_text(const std::string& object, const char* name, const std::string& text);
+    void set_fixed_text(const std::string& object, const char* name, const std::string& text);   ///< ASCII.
+    void set_texts(const std::string& object, const char* name, const std::vector<std::string>& texts);
+    std::int64_t integer(const std::string& object, const char* name) const;
+    double real(const std::string& object, const char* name) const;
+    std::string text(const std::string& object, const char* name) const;
+    std::vector<std::string> texts(const std::string& object, const char* name) const;   ///< Empty if absent.
+
+private:
+    Hdf5Id open_object(const std::string& object) const;
+    Hdf5Id open_attribute(const std::string& object, const char* name) const;
+    Hdf5Id make_attribute(const std::string& object, const char* name, hid_t type, hid_t space);
+
+    std::string path_;
+    Hdf5Id file_;
+};
+
+}  // namespace selvage

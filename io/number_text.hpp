@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace selvage {
+
+/// Splits the words of a choice list such as `float|double`; none for "".
+std::vector<std::string> split_choices(std::string_view choices);
+
+/// Returns the shortest text that reads back as the same number.
+std::string number_text(double value);
+
+/// Returns the number with six digits, for what was computed.
+std::string rounded_text(double value);
+
+/// Returns `low to high unit` for messages and documentation; the unit "1" is left out.
+std::string range_text(double low, double high, std::string_view unit);
+
+/// Returns the value that a slip of units turns into this out-of-range one, such as `0.01 m (10 mm)` for 10, or "".
+/// @param low, high, unit  the accepted range of the key
+std::string unit_slip(double value, double low, double high, std::string_view unit);
+
+/// Reads a whole text as a finite number.
+/// @return false if the text is anything else
+bool parse_number(std::string_view text, double& value);
+
+}  // namespace selvage

@@ -1,0 +1,82 @@
+#pragma once
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace selvage {
+
+/// Where a run stands.
+struct ProgressState {
+    std::string phase;            ///< Such as `sewing` or `draping`.
+    double time = 0;              ///< Simulated [s].
+    long step = 0;
+    double residual = std::numeric_limits<double>::quiet_NaN();   ///< Relative force residual [1]; NaN: unknown.
+    int frames = 0;               ///< Written so far.
+};
+
+struct ProgressOptions {
+    std::string path;             ///< progress.jsonl; empty: no file.
+    bool append = false;          ///< Go on with the file instead of starting it anew.
+    bool quiet = false;           ///< Nothing on stderr.
+    double end_time = std::numeric_limits<double>::infinity();   ///< Simulated time that is asked for [s]; infinite: run to equilibrium.
+    double tolerance = 0;         ///< Residual at which a run to equilibrium ends.
+};
+
+/// Estimates the wall time that is left.
+class EtaEstimate {
+public:
+    /// @param end_time   simulated time at which the run ends, or infinity
+    /// @param tolerance  residual at which it ends, if end_time is infinite
+    EtaEstimate(double end_time, double tolerance) : end_time_(end_time), tolerance_(tolerance) {}
+
+    /// @param wall  wall time since the start [s]
+    void add(double wall, const ProgressState& state);
+    void restart() { samples_.clear(); }   ///< Forgets the past, as when another phase begins.
+
+    /// Seconds left, or NaN while no trend can be seen. With an end time: from the simulated time per wall time;
+    /// else from a straight line through the logarithm of the residual over the recent past.
+    double seconds_left() const;
+
+private:
+    struct Sample {
+        double wall, time, log_residual;
+    };
+    double end_time_, tolerance_;
+    std::deque<Sample> samples_;
+};
+
+/// Tells other programs (JSON lines) and the user (stderr) how a run goes on.
+class ProgressReport {
+public:
+    /// @throws InputError if the file cannot be written.
+    explicit ProgressReport(const ProgressOptions& options);
+    ProgressReport(const ProgressReport&) = delete;
+    ProgressReport& operator=(const ProgressReport&) = delete;
+    ~ProgressReport();   ///< Ends the live line.
+
+    /// Adds a line to the file; shows the state on a terminal at most 5 times a second, otherwise every 2 s, and
+    /// at once when a phase begins.
+    void update(const ProgressState& state);
+
+    /// Writes a line of text to stderr, clear of the live line; not if quiet.
+    void message(const std::string& text);
+
+private:
+    double elapsed() const;
+    void write_line(const ProgressState& state, double wall, double seconds_left);
+    void show(const ProgressState& state, double wall, double seconds_left);
+    void clear_live_line();
+
+    ProgressOptions options_;
+    EtaEstimate estimate_;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+    std::chrono::steady_clock::time_point start_;
+    std::string phase_;
+    double shown_at_;   ///< Wall time since the start [s].
+    bool terminal_, live_line_ = false;
+};
+
+}  // namespace selvage

@@ -1,0 +1,122 @@
+#include "io/scene_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+#include "io/number_text.hpp"
+
+namespace selvage {
+namespace {
+
+void check_file(const Scene& scene, const std::string& key, const std::string& name, std::string_view kind)
+{
+    InputPlace place = scene.place(key);
+    if (name.empty()) {
+        // The key may be absent; its table shows where it belongs.
+        if (place.line == 0) place = scene.place(key.substr(0, key.rfind('.')));
+        place.key = key;
+        throw InputError(place, "no file name", kind);
+    }
+    const std::string path = scene.resolve(name);
+    if (!std::filesystem::is_regular_file(path)) {
+        const bool exists = std::filesystem::exists(path);
+        throw InputError(place, "`" + name + "`, " + (exists ? "not a file: " : "no such file: ") + path, kind);
+    }
+}
+
+void check_garment(const Scene& scene)
+{
+    const bool given = scene.places.count("garment") > 0;
+    if (!given && scene.sheets.empty())
+        throw InputError({scene.file, 0, 0, {}}, "neither [garment] nor [[sheet]]", "a scene with cloth in it");
+    if (!given) return;
+    constexpr std::string_view kind = "a GarmentCode JSON file or a built-in pattern such as builtin:tshirt";
+    const std::string& pattern = scene.garment.pattern;
+    if (pattern.rfind("builtin:", 0) != 0) check_file(scene, "garment.pattern", pattern, kind);
+}
+
+void check_sheet(const Scene& scene, int index)
+{
+    const SheetScene& sheet = scene.sheets[std::size_t(index)];
+    const std::string path = "sheet[" + std::to_string(index) + "].";
+    if (sheet.shape == "mesh") check_file(scene, path + "mesh", sheet.mesh, "an OBJ file, as shape is mesh");
+}
+
+void check_body(const Scene& scene, int index, std::set<std::string>& names)
+{
+    const BodyScene& body = scene.bodies[std::size_t(index)];
+    const std::string path = "body[" + std::to_string(index) + "].";
+    if (body.shape == "mesh") check_file(scene, path + "mesh", body.mesh, "an OBJ file, as shape is mesh");
+    if (body.shape == "plane" && body.normal.norm() == 0)
+        throw InputError(scene.place(path + "normal"), "[0, 0, 0]", "a direction");
+    if (body.shape == "capsule" && body.center == body.end)
+        throw InputError(scene.place(path + "end"), "the same point as `center`", "the capsule's other end [m]");
+    if (!body.name.empty() && !names.insert(body.name).second)
+        throw InputError(scene.place(path + "name"), "`" + body.name + "` a second time", "a name of its own per body");
+}
+
+void check_until(const Scene& scene)
+{
+    const std::string& until = scene.solver.until;
+    constexpr double limit = 1e6;
+    double seconds = 0;
+    if (until == "equilibrium" || (parse_number(until, seconds) && seconds > 0 && seconds <= limit)) return;
+    const std::vector<std::string> words{"equilibrium"};
+    throw InputError(scene.place("solver.until"), "`" + until + "`",
+                     "\"equilibrium\" or a time above 0 and up to " + number_text(limit) + " s",
+                     nearest_name(until, words));
+}
+
+void check_pins(const Scene& scene)
+{
+    std::string_view list = scene.pins.vertices;
+    while (!list.empty()) {
+        const std::size_t comma = std::min(list.find(','), list.size());
+        std::string_view item = list.substr(0, comma);
+        while (!item.empty() && item.front() == ' ') item.remove_prefix(1);
+        while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
+        double vertex = -1;
+        if (!parse_number(item, vertex) || vertex < 0 || vertex > 2147483647.0 || vertex != std::floor(vertex))
+            throw InputError(scene.place("pins.vertices"), "`" + std::string(item) + "`",
+                             "vertex indices from 0, separated by commas");
+        list.remove_prefix(std::min(comma + 1, list.size()));
+    }
+}
+
+void resolve_fabric(Scene& scene, const std::string& name, const std::string& key)
+{
+    if (scene.fabrics.count(name)) return;
+    std::vector<std::string> names = fabric_preset_names();
+    if (std::find(names.begin(), names.end(), name) != names.end()) {
+        scene.fabrics[name] = fabric_preset(name);
+        return;
+    }
+    for (const auto& [defined, fabric] : scene.fabrics) names.push_back(defined);
+    throw InputError(scene.place(key), "`" + name + "`", "a built-in fabric or a table [fabric." + name + "]",
+                     nearest_name(name, names));
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene)
+{
+    check_garment(scene);
+    for (int sheet = 0; sheet < int(scene.sheets.size()); ++sheet) check_sheet(scene, sheet);
+    std::set<std::string> names;
+    for (int body = 0; body < int(scene.bodies.size()); ++body) check_body(scene, body, names);
+    check_until(scene);
+    check_pins(scene);
+}
+
+void resolve_fabrics(Scene& scene)
+{
+    if (scene.has_garment()) resolve_fabric(scene, scene.garment.fabric, "garment.fabric");
+    for (const auto& [panel, fabric] : scene.panel_fabrics) resolve_fabric(scene, fabric, "garment.fabrics." + panel);
+    for (int sheet = 0; sheet < int(scene.sheets.size()); ++sheet)
+        resolve_fabric(scene, scene.sheets[std::size_t(sheet)].fabric, "sheet[" + std::to_string(sheet) + "].fabric");
+}
+
+}  // namespace selvage

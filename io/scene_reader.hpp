@@ -1,0 +1,80 @@
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "io/errors.hpp"
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+/// A parsed TOML text that remembers which of its values came from the command line.
+struct TomlDocument {
+    std::string file;                              ///< As the user gave it.
+    toml::table root;
+    std::map<std::string, std::string> overrides;  ///< Key path to the override as given.
+    std::map<std::string, InputPlace> places;      ///< Key path to its place, filled while tables are read.
+
+    /// Returns the place of a key; the override stands for the file where it set the key.
+    InputPlace place(const toml::source_region& region, const std::string& key) const;
+};
+
+/// Parses TOML text.
+/// @throws InputError with line and column where the text is not TOML or gives a key twice.
+TomlDocument parse_toml(std::string_view text, const std::string& file);
+
+/// Sets `table.key=value` in a document; `sheet.KEY` and `body.KEY` set every element, `sheet[1].KEY` only one.
+/// @throws InputError naming the override where it cannot be read or its element does not exist.
+void apply_override(TomlDocument& document, const std::string& override_text);
+
+/// Returns a TOML value as text for messages, shortened where it is long.
+std::string toml_value_text(const toml::node& node);
+
+/// Reads the keys of one table and checks type, range and spelling.
+/// Every `read` leaves its target unchanged when the key is absent and throws InputError when it is wrong.
+class TableReader {
+public:
+    /// @param table  nullptr: an absent table, in which every key keeps its default
+    /// @param path   key path of the table, empty for the whole text
+    TableReader(TomlDocument& document, const toml::table* table, std::string path);
+
+    void read(const char* name, double& target, const char* unit, double low, double high);
+    void read(const char* name, int& target, const char* unit, double low, double high);
+    void read(const char* name, bool& target, const char* unit, double low, double high);
+    void read(const char* name, Vec3& target, const char* unit);
+    /// @param choices  accepted words separated by |, or "" for any text
+    void read(const char* name, std::string& target, const char* choices);
+    /// Reads a list of texts.
+    void read(const char* name, std::vector<std::string>& target);
+
+    /// Returns a table inside this one, or nullptr.
+    const toml::table* table(const char* name);
+    /// Returns the elements of `[[name]]`; empty when there are none.
+    std::vector<const toml::table*> tables(const char* name);
+
+    /// Returns the place of a key of this table, given or not.
+    InputPlace place(const std::string& name) const;
+    const std::string& path() const { return path_; }
+
+    /// @throws InputError at the first key that no `read` has asked for, with the nearest that one has.
+    void refuse_unknown() const;
+
+private:
+    const toml::node* find(const char* name);
+    std::string key_path(std::string_view name) const;
+    [[noreturn]] void refuse(const char* name, const toml::node& node, std::string_view expected,
+                             std::string_view nearest = {}) const;
+    void check_range(const char* name, const toml::node& node, double value, std::string_view kind, const char* unit,
+                     double low, double high) const;
+
+    TomlDocument& document_;
+    const toml::table* table_;
+    std::string path_;
+    std::vector<std::string> known_;
+};
+
+}  // namespace selvage

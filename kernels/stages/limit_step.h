@@ -1,0 +1,23 @@
+// Keeps a search direction from carrying a vertex through the tangent plane of its nearest body surface.
+//     g = n . x - offset > 0:   if n . d < -0.9 g, then d gets the normal part -0.9 g n
+// What a vertex may lose per iteration is a fraction of its gap, so the barrier is met before the surface is.
+// Source: the step limit of incremental potential contact (Li and others 2020), per vertex and for planes.
+#pragma once
+#include "../portable.h"
+
+typedef struct {
+    GLOBAL const real* RESTRICT pos;
+    GLOBAL const real* RESTRICT normal;
+    GLOBAL const real* RESTRICT offset;
+    GLOBAL real* RESTRICT direction;
+    int stride;
+} limit_step_args;
+
+KERNEL_FN void limit_step_vertex(int vertex, const limit_step_args* a)
+{
+    vec3 n = load3(a->normal, a->stride, vertex), d = load3(a->direction, a->stride, vertex);
+    real gap = dot(n, load3(a->pos, a->stride, vertex)) - a->offset[vertex];
+    real excess = fmax(gap, REAL(0)) * REAL(-0.9) - dot(n, d);
+    if (gap > REAL(0) && excess > REAL(0) && dot(n, n) > REAL(0))
+        store3(a->direction, a->stride, vertex, d + excess * n);
+}
