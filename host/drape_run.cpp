@@ -126,6 +126,26 @@ PhaseEnd DrapeRun::run_sewing()
     return sew(*phase_, options, sewing_, [this](const StepEvent& event) { return after_step(event); });
 }
 
+void DrapeRun::join_seams()
+{
+    recorder_->close_phase();
+    const std::vector<Vec3> positions = phase_->positions(), velocities = phase_->velocities();
+    start_phase("drape", positions, velocities);
+    recorder_->open_phase(phase_name_, phase_->topology(), -1);
+}
+
+PhaseEnd DrapeRun::run_pressing()
+{
+    return press_seams(*phase_, scene_.solver.step, [this](const StepEvent& event) {
+        ++counters_.steps;
+        counters_.newton_iterations += event.newton_iterations;
+        counters_.linear_iterations += event.linear_iterations;
+        counters_.simulated += event.dt;
+        recorder_->report("press", event, counters_.steps);
+        return !interrupt_requested();
+    });
+}
+
 PhaseEnd DrapeRun::run_drape_phase()
 {
     EquilibriumOptions options;
@@ -212,10 +232,10 @@ RunOutcome DrapeRun::execute()
             finish_phase();
             if (end == PhaseEnd::stopped) return conclude_stopped();
             if (end == PhaseEnd::time_limit) return conclude_unsewn();
-            recorder_->close_phase();
-            const std::vector<Vec3> positions = phase_->positions(), velocities = phase_->velocities();
-            start_phase("drape", positions, velocities);
-            recorder_->open_phase(phase_name_, phase_->topology(), -1);
+            join_seams();
+            const PhaseEnd pressed = run_pressing();
+            finish_phase();
+            if (pressed == PhaseEnd::stopped) return conclude_stopped();
             save();
         }
         const PhaseEnd end = run_drape_phase();

@@ -24,6 +24,8 @@ private:
     void restore();
     void save();
     PhaseEnd run_sewing();
+    void join_seams();
+    PhaseEnd run_pressing();
     PhaseEnd run_drape_phase();
     bool after_step(const StepEvent& event);
     double elapsed() const;

@@ -34,7 +34,8 @@ void protect(Hdf5File& file, const std::string& name, hid_t type, std::size_t si
         file.make_dataset(name, type, {0});
         return;
     }
-    const Hdf5Id dataset = file.make_dataset(name, type, {size}, {.compressed = false, .growing = false, .chunk = {size}, .checked = true});
+    const Hdf5Id dataset =
+        file.make_dataset(name, type, {size}, {.compressed = false, .growing = false, .chunk = {size}, .checked = true});
     require_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
 }
 

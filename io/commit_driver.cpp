@@ -154,7 +154,8 @@ bool write_piece(CommitFile& file, haddr_t address, const HeldWrite& piece)
 int commit_rank(const HeldWrite& piece)
 {
     if (piece.type == H5FD_MEM_SUPER) return 0;
-    return ChunkNode::is(piece) ? 256 - ChunkNode::level(piece.bytes) : 257;
+    if (ChunkNode::is(piece)) return 256 - ChunkNode::level(piece.bytes);
+    return piece.type == H5FD_MEM_OHDR ? 258 : 257;
 }
 
 bool commit(CommitFile& file)

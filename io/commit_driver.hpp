@@ -10,7 +10,7 @@ namespace selvage {
 ///   1. bytes beyond the end of the last commit are written at once: nothing on disk refers to them yet;
 ///   2. changes of older bytes are held in memory until H5Fflush or H5Fclose, which write the superblock (the
 ///      file has its new length by then), then B-tree nodes from the root down (a parent finds the new half of
-///      a split node before the old half loses its entries), then the rest;
+///      a split node before the old half loses its entries), then data, then object headers by address;
 ///   3. within one object only the bytes that differ are written; in a B-tree node first the new entry, then the
 ///      count that covers it, then the key that leads to it.
 /// Each such write is at most some hundred bytes long, and the file is readable before and after each of them.

@@ -1,5 +1,6 @@
 #include "io/progress.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>

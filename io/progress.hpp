@@ -21,7 +21,7 @@ struct ProgressOptions {
     std::string path;             ///< progress.jsonl; empty: no file.
     bool append = false;          ///< Go on with the file instead of starting it anew.
     bool quiet = false;           ///< Nothing on stderr.
-    double end_time = std::numeric_limits<double>::infinity();   ///< Simulated time that is asked for [s]; infinite: run to equilibrium.
+    double end_time = std::numeric_limits<double>::infinity();   ///< Simulated [s]; infinite: run to equilibrium.
     double tolerance = 0;         ///< Residual at which a run to equilibrium ends.
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -49,7 +50,7 @@ struct FrameScalars {
 /// Writes run.h5, a temporal VTKHDF PolyData file, and run.xdmf beside it.
 ///
 /// A frame is committed when write_frame returns; a file whose writer was killed at any moment opens and holds
-/// every committed frame (Steps@NSteps of them; one more may be there in part).
+/// every committed frame (Steps@NSteps of them; parts of one more may be there).
 class TrajectoryWriter {
 public:
     /// Starts a file; an existing one is replaced once the new one is complete in itself.
@@ -75,7 +76,7 @@ public:
 
 private:
     TrajectoryWriter(const std::string& path, const TrajectoryLayout& layout, std::vector<double> times);
-    void append_row(const FrameScalars& scalars);
+    void append_row(const FrameScalars& scalars);   ///< Commits the frame.
     void write_index_file();
 
     std::string path_;

@@ -79,33 +79,35 @@ void write_attributes(Hdf5File& file, const TrajectoryLayout& layout)
     if (!layout.panel_names.empty()) file.set_texts("/selvage", "panel_names", layout.panel_names);
 }
 
+void make_column(Hdf5File& file, const FrameColumn& column)
+{
+    std::vector<hsize_t> shape{0}, chunk{column_chunk};
+    if (column.width > 1) shape.push_back(hsize_t(column.width)), chunk.push_back(hsize_t(column.width));
+    file.make_dataset(column.name, column.integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, shape,
+                      {.compressed = false, .growing = true, .chunk = chunk, .checked = false});
+}
+
 void write_columns(Hdf5File& file)
 {
     file.make_group(steps);
     file.make_group("/VTKHDF/Steps/PointDataOffsets");
     file.make_group("/VTKHDF/Steps/CellDataOffsets");
-    for (const FrameColumn& column : frame_columns) {
-        std::vector<hsize_t> shape{0}, chunk{column_chunk};
-        if (column.width > 1) shape.push_back(hsize_t(column.width)), chunk.push_back(hsize_t(column.width));
-        file.make_dataset(column.name, column.integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, shape,
-                          {.compressed = false, .growing = true, .chunk = chunk, .checked = false});
-    }
+    for (const FrameColumn& column : frame_columns) make_column(file, column);
     for (const auto& [column, name] : column_links) file.link(column, name);
-    file.set_integer(steps, "NSteps", 0);
 }
 
-}  // namespace
-
-void write_header(const std::string& path, const TrajectoryLayout& layout)
+void write_contents(const std::string& path, const TrajectoryLayout& layout)
 {
-    check(layout);
     Hdf5File file(path, Hdf5Access::create);
     const std::array<std::int64_t, 1> point_count{layout.point_count};
     file.make_group("/VTKHDF");
     file.make_group("/selvage");
     write_attributes(file, layout);
     file.make_dataset(points, H5T_IEEE_F32LE, {0, 3},
-                      {.compressed = true, .growing = true, .chunk = {hsize_t(layout.point_count), 3}, .checked = false});
+                      {.compressed = true,
+                       .growing = true,
+                       .chunk = {hsize_t(layout.point_count), 3},
+                       .checked = false});
     file.write("/VTKHDF/NumberOfPoints", H5T_STD_I64LE, {1}, point_count);
     for (const char* group : {"/VTKHDF/Vertices", "/VTKHDF/Lines", "/VTKHDF/Strips"}) write_cells(file, group, {});
     write_cells(file, "/VTKHDF/Polygons", layout.triangles);
@@ -114,7 +116,17 @@ void write_header(const std::string& path, const TrajectoryLayout& layout)
     // The view is made at the end, in a group of its own: a kill meanwhile cannot hurt any other group.
     file.make_group("/selvage/views");
     file.link_softly("/selvage/views/positions", "/selvage/positions");
-    file.flush();
+}
+
+}  // namespace
+
+void write_header(const std::string& path, const TrajectoryLayout& layout)
+{
+    check(layout);
+    write_contents(path, layout);
+    // In a file just opened the attribute goes to the end: the driver then writes it after every other header.
+    Hdf5File file(path, Hdf5Access::append);
+    file.set_integer(steps, "NSteps", 0);
 }
 
 Hdf5Id open_points(const Hdf5File& file)

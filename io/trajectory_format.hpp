@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 
 #include "io/hdf5_file.hpp"
@@ -20,8 +19,10 @@ struct FrameColumn {
     int width;      ///< Numbers per row; 1: the dataset has one dimension.
 };
 
+/// The first column is written together with NSteps: vtkHDFReader overruns its buffer when there are more times
+/// than steps.
 inline constexpr std::array<FrameColumn, 11> frame_columns{{
-    {"/VTKHDF/Steps/Values", false, 1},
+    {"/selvage/time", false, 1},
     {"/VTKHDF/Steps/PartOffsets", true, 1},
     {"/VTKHDF/Steps/NumberOfParts", true, 1},
     {"/VTKHDF/Steps/PointOffsets", true, 1},
@@ -40,7 +41,7 @@ inline constexpr std::array<std::array<const char*, 2>, 5> column_links{{
     {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/PointDataOffsets/panel_coordinates"},
     {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/PointDataOffsets/panel"},
     {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/CellDataOffsets/rest_edge_lengths"},
-    {"/VTKHDF/Steps/Values", "/selvage/time"},
+    {"/selvage/time", "/VTKHDF/Steps/Values"},
 }};
 
 /// Writes a complete file without frames under `path`.

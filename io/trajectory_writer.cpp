@@ -21,7 +21,7 @@ std::string index_path(const std::string& path)
     return std::filesystem::path(path).replace_extension(".xdmf").string();
 }
 
-// Every path of a writer to a file name passes here: complete under a temporary name, then renamed.
+// Readers never see a file without its header.
 void put_header(const std::string& path, const TrajectoryLayout& layout)
 {
     write_header(temporary_name(path), layout);
@@ -111,7 +111,8 @@ void TrajectoryWriter::write_frame(std::span<const Vec3> positions, const FrameS
         if (!positions[point].allFinite())
             throw std::runtime_error("trajectory: the position of vertex " + std::to_string(point) + " at t = " +
                                      std::to_string(scalars.time) + " s is not finite");
-        const Vec3 rounded = spacing_ > 0 ? Vec3((positions[point] / spacing_).array().round() * spacing_) : positions[point];
+        Vec3 rounded = positions[point];
+        if (spacing_ > 0) rounded = (rounded / spacing_).array().round() * spacing_;
         for (int axis = 0; axis < 3; ++axis) buffer_[3 * point + std::size_t(axis)] = float(rounded[axis]);
     }
     const int frame = frame_count();
@@ -122,18 +123,20 @@ void TrajectoryWriter::write_frame(std::span<const Vec3> positions, const FrameS
     const Hdf5Id source(H5Screate_simple(2, count.data(), nullptr), H5Sclose, points);
     require_hdf5(H5Dwrite(points_, H5T_NATIVE_FLOAT, source, target, H5P_DEFAULT, buffer_.data()), points);
     append_row(scalars);
-    file_->flush();
-    file_->set_integer(steps, "NSteps", frame + 1);
-    file_->flush();
     times_.push_back(scalars.time);
     if (std::chrono::steady_clock::now() - index_written_ > index_interval) write_index_file();
 }
 
 void TrajectoryWriter::append_row(const FrameScalars& scalars)
 {
-    const auto rows = frame_rows(frame_count(), point_count_, scalars);
-    for (std::size_t column = 0; column < rows.size(); ++column)
-        write_row(columns_[column], frame_columns[column], frame_count(), rows[column]);
+    const int frame = frame_count();
+    const auto rows = frame_rows(frame, point_count_, scalars);
+    for (std::size_t column = 1; column < rows.size(); ++column)
+        write_row(columns_[column], frame_columns[column], frame, rows[column]);
+    file_->flush();
+    write_row(columns_[0], frame_columns[0], frame, rows[0]);
+    file_->set_integer(steps, "NSteps", frame + 1);
+    file_->flush();
 }
 
 void TrajectoryWriter::write_index_file()

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int patience = 12;            // steps without headway before seams are pulled harder
 constexpr double strongest_pull = 1e3;  // times the scene's own seam stiffness
+constexpr double press_bending = 100;   // times the fabric's bending rigidity
+constexpr int press_steps = 20;
 
 }  // namespace
 
@@ -56,6 +58,27 @@ PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progres
         }
     }
     return PhaseEnd::time_limit;
+}
+
+PhaseEnd press_seams(Phase& phase, double step, const AfterStep& after_step)
+{
+    const Params worn = phase.params();
+    phase.params().bending.scale *= press_bending;
+    phase.params().friction.scale = 0;
+    phase.params().gravity = {};
+    StepControl control(phase, step);
+    NewtonOptions newton;
+    newton.max_iterations = 2;
+    double time = 0;
+    PhaseEnd end = PhaseEnd::reached;
+    for (int k = 0; k < press_steps && end == PhaseEnd::reached; ++k) {
+        time += control.advance(step, newton, false);
+        if (!after_step({time, control.dt(), control.report().iterations, control.report().linear_iterations,
+                         control.report().residual}))
+            end = PhaseEnd::stopped;
+    }
+    phase.params() = worn;
+    return end;
 }
 
 }  // namespace selvage

@@ -25,4 +25,8 @@ double largest_gap(const Phase& phase);
 /// closer than `closed` and the elastic energy has settled. A seam that makes no headway is pulled harder.
 PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progress, const AfterStep& after_step);
 
+/// Presses the seams of a garment that has just been joined: a few steps without gravity and friction in which the
+/// cloth resists bending many times more than it will. Laps that sewing left at a seam fold open.
+PhaseEnd press_seams(Phase& phase, double step, const AfterStep& after_step);
+
 }  // namespace selvage
