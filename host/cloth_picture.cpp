@@ -20,7 +20,7 @@ std::vector<int> representatives(const Topology& topology)
 std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology)
 {
     const std::vector<int> representative = representatives(topology);
-    std::vector<Face> faces = cloth.faces;
+    std::vector<Face> faces = outward_faces(cloth);
     for (Face& face : faces)
         for (int& v : face) v = representative[v];
     return faces;

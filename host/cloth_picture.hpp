@@ -7,7 +7,7 @@
 
 namespace selvage {
 
-/// The faces of a cloth with one vertex standing for all that are sewn to each other, so that faces of two panels
+/// The outward faces of a cloth with one vertex standing for all that are sewn to each other, so that faces of two panels
 /// share the vertices of their seam.
 std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology);
 

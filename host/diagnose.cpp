@@ -89,7 +89,7 @@ void draw(const ClothModel& model, const std::vector<Finding>& findings, const s
 {
     PictureCloth picture;
     picture.positions = model.cloth.positions;
-    picture.faces = model.cloth.faces;
+    picture.faces = outward_faces(model.cloth);
     for (int p = 0; p < int(model.cloth.panels.size()); ++p)
         picture.face_panel.insert(picture.face_panel.end(), model.cloth.panels[p].face_count, p);
     for (const Finding& finding : findings)

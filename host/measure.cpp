@@ -102,7 +102,7 @@ std::vector<std::array<double, 3>> rest_edge_lengths(const Cloth& cloth)
     std::vector<std::array<double, 3>> lengths;
     lengths.reserve(cloth.faces.size());
     const auto& u = cloth.panel_coordinates;
-    for (const Face& f : cloth.faces)
+    for (const Face& f : outward_faces(cloth))
         lengths.push_back({(u[f[1]] - u[f[0]]).norm(), (u[f[2]] - u[f[1]]).norm(), (u[f[0]] - u[f[2]]).norm()});
     return lengths;
 }

@@ -30,7 +30,7 @@ double measure_seam_gap(const Cloth& cloth, const std::vector<Vec3>& positions);
 /// The gap of each seam: largest distance among its pairs [m].
 std::vector<double> measure_seams(const Cloth& cloth, const std::vector<Vec3>& positions);
 
-/// Rest lengths of the edges 01, 12, 20 of every face [m].
+/// Rest lengths of the edges 01, 12, 20 of every outward face [m].
 std::vector<std::array<double, 3>> rest_edge_lengths(const Cloth& cloth);
 
 }  // namespace selvage

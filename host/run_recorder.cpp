@@ -124,11 +124,12 @@ void RunRecorder::write_meshes(const std::vector<Vec3>& positions)
 {
     const Cloth& cloth = model_.model.cloth;
     std::vector<std::vector<Face>> faces(cloth.panels.size());
+    const std::vector<Face> outward = outward_faces(cloth);
     std::vector<ObjObject> objects;
     for (int p = 0; p < int(cloth.panels.size()); ++p) {
         const ClothPanel& panel = cloth.panels[p];
         for (int f = panel.first_face; f < panel.first_face + panel.face_count; ++f) {
-            Face face = cloth.faces[f];
+            Face face = outward[f];
             for (int& v : face) v -= panel.first_vertex;
             faces[p].push_back(face);
         }

@@ -2,19 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
 
 #include "host/garment/assemble.hpp"
 #include "host/garment/catalogue.hpp"
 #include "host/garment/mannequin.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/garment/transfer.hpp"
+#include "io/memory.hpp"
 #include "io/mesh_obj.hpp"
 #include "io/pattern_json.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr int coarsest_vertices = 300;   // a dense factorisation of this size costs less than a fine matrix product
+constexpr int coarsest_vertices = 300;   // factorising this costs less than a fine matrix product
+
+// A scene whose mesh alone could not be held is refused before it is made; the plan then counts exactly.
+constexpr double bytes_per_vertex = 3000;
+
+// A level sheet has nothing that tells it which way to fold: every vertex starts off its plane by up to this part of
+// an edge, in a fixed pattern.
+constexpr double ripple = 1e-3;
 
 MannequinMeasures body_measures(const BodyScene& body)
 {
@@ -54,6 +65,33 @@ Cloth sheet_at(const Scene& scene, int index, int resolution)
     return sheet_from_mesh(mesh, texture, sheet, scene.pins, sheet.mesh, key);
 }
 
+void check_sheet_size(const Scene& scene, int index)
+{
+    const SheetScene& sheet = scene.sheets[index];
+    const double rows = sheet.shape == "rectangle" ? sheet.resolution * sheet.height / sheet.width : sheet.resolution;
+    const double vertices = sheet.resolution * std::max(rows, 2.0), most = memory_limit(scene) / bytes_per_vertex;
+    if (sheet.shape == "mesh" || vertices <= most) return;
+    throw InputError(scene.place("sheet[" + std::to_string(index) + "].resolution"),
+                     fmt::format("{}, which means about {:.3g} vertices", sheet.resolution, vertices),
+                     fmt::format("at most {:.3g} vertices (solver.memory_limit)", most));
+}
+
+void add_ripple(Cloth& cloth, double edge_length)
+{
+    std::vector<char> held(cloth.positions.size());
+    for (int v : cloth.pinned) held[v] = 1;
+    for (const ClothPanel& panel : cloth.panels) {
+        const Face& f = cloth.faces[panel.first_face];
+        const Vec3 normal = (cloth.positions[f[1]] - cloth.positions[f[0]])
+                                .cross(cloth.positions[f[2]] - cloth.positions[f[0]])
+                                .normalized();
+        for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v) {
+            const std::uint32_t hash = std::uint32_t(v) * 2654435761u;
+            if (!held[v]) cloth.positions[v] += ripple * edge_length * (double(hash >> 8) / (1 << 24) - 0.5) * normal;
+        }
+    }
+}
+
 // The cloth of the scene `level` halvings of its resolution away; empty if it cannot be made coarser.
 Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
 {
@@ -61,7 +99,7 @@ Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
     const double factor = std::pow(2.0, level);
     if (scene.has_garment())
         cloth = assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric, scene.panel_fabrics,
-                                 scene.garment.pattern);
+                                 scene.garment.pattern, memory_limit(scene) / bytes_per_vertex);
     for (int i = 0; i < int(scene.sheets.size()); ++i) {
         const SheetScene& sheet = scene.sheets[i];
         if (level > 0 && sheet.shape == "mesh") return {};
@@ -104,9 +142,9 @@ std::vector<Body> build_bodies(const Scene& scene)
         if (body.shape == "mannequin") {
             bodies.push_back(make_body(body, scene, i, make_mannequin(body_measures(body))));
         } else if (body.shape == "mesh") {
-            const TriangleMesh mesh = read_obj(scene.resolve(body.mesh), body.unit, body.up_axis);
-            require_closed_body(mesh, body.mesh);
-            bodies.push_back(make_body(body, scene, i, mesh));
+            const std::string file = scene.resolve(body.mesh);
+            bodies.push_back(make_body(body, scene, i, read_obj(file, body.unit, body.up_axis)));
+            require_closed_body(bodies.back().mesh, file);
         } else {
             bodies.push_back(make_body(body, scene, i));
         }
@@ -119,6 +157,7 @@ SceneModel build_scene_model(const Scene& scene)
     SceneModel result;
     Pattern pattern;
     if (scene.has_garment()) pattern = read_pattern(scene);
+    for (int i = 0; i < int(scene.sheets.size()); ++i) check_sheet_size(scene, i);
     result.model.cloth = cloth_at_level(scene, pattern, 0);
     result.model.fabrics = scene.fabrics;
     result.model.bodies = build_bodies(scene);
@@ -128,7 +167,13 @@ SceneModel build_scene_model(const Scene& scene)
     result.warnings.insert(result.warnings.end(), odd.begin(), odd.end());
     result.sews = !result.model.cloth.seam_pairs.empty();
     result.edge_length = typical_edge(result.model.cloth);
+    if (!scene.has_garment()) add_ripple(result.model.cloth, result.edge_length);
     return result;
+}
+
+double memory_limit(const Scene& scene)
+{
+    return scene.solver.memory_limit > 0 ? scene.solver.memory_limit : 0.9 * double(physical_memory_bytes());
 }
 
 Box cloth_reach(const Cloth& cloth)

@@ -22,6 +22,9 @@ SceneModel build_scene_model(const Scene& scene);
 /// Returns the bodies of a scene without its cloth.
 std::vector<Body> build_bodies(const Scene& scene);
 
+/// Returns the memory that a run of the scene may take: solver.memory_limit, or most of the machine's [bytes].
+double memory_limit(const Scene& scene);
+
 /// Returns where the cloth may go: its start box grown by its own size.
 Box cloth_reach(const Cloth& cloth);
 

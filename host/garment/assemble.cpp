@@ -24,6 +24,7 @@ struct MeshedPanel {
     PanelMesh mesh;
     std::vector<std::vector<int>> edge_vertices;  // by edge, from its start to its end
     double area = 0, boundary = 0;
+    bool clockwise = false;   ///< How the pattern draws the outline: a panel is drawn as seen from its outside.
 };
 
 std::string number_text(double value)
@@ -90,6 +91,7 @@ MeshedPanel mesh_one(const PatternPanel& panel, const std::vector<int>& segments
     }
     for (int i = 0; i < sample_count; ++i) result.boundary += (polygon[(i + 1) % sample_count] - polygon[i]).norm();
     result.area = signed_area(polygon);
+    result.clockwise = clockwise;
     return result;
 }
 
@@ -118,7 +120,8 @@ std::vector<int> add_panel(Cloth& cloth, const PatternPanel& panel, const Meshed
 {
     const int first_vertex = int(cloth.positions.size());
     cloth.panels.push_back({panel.name, fabric, first_vertex, int(meshed.mesh.vertices.size()), int(cloth.faces.size()),
-                            int(meshed.mesh.faces.size()), meshed.area, meshed.boundary});
+                            int(meshed.mesh.faces.size()), meshed.area, meshed.boundary,
+                            meshed.clockwise});
     for (const Vec2& point : meshed.mesh.vertices) {
         cloth.panel_coordinates.push_back(point);
         cloth.positions.push_back(place_on_panel(panel, point));
@@ -203,6 +206,15 @@ Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::st
     }
     join_seams(pattern, side_of, cloth);
     return cloth;
+}
+
+std::vector<Face> outward_faces(const Cloth& cloth)
+{
+    std::vector<Face> faces = cloth.faces;
+    for (const ClothPanel& panel : cloth.panels)
+        for (int f = panel.first_face; panel.reversed && f < panel.first_face + panel.face_count; ++f)
+            std::swap(faces[f][1], faces[f][2]);
+    return faces;
 }
 
 void append_cloth(Cloth& to, const Cloth& other)

@@ -15,6 +15,7 @@ struct ClothPanel {
     int first_face = 0, face_count = 0;
     double rest_area = 0;           ///< Of the exact outline's triangulation [m^2].
     double rest_boundary = 0;       ///< Length of its boundary polygon [m].
+    bool reversed = false;          ///< Its outside is the side from which the faces look clockwise.
 };
 
 /// The sampled vertices of one outline edge, from its start to its end.
@@ -44,6 +45,9 @@ struct Cloth {
     std::vector<int> pinned;                          ///< Held vertices, sorted.
     std::vector<std::string> warnings;                ///< What was odd but could be used.
 };
+
+/// The faces of a cloth wound counter-clockwise as seen from its outside, in the order of Cloth::faces.
+std::vector<Face> outward_faces(const Cloth& cloth);
 
 /// Linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.
 struct Transfer {

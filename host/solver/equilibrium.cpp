@@ -38,6 +38,7 @@ PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, D
     StepControl control(phase, options.step);
     NewtonOptions newton;
     newton.max_iterations = std::min(options.newton_iterations, 3);
+    newton.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
     while (progress.time < options.max_time || options.statics_only) {
         double residual = 0;
         if (!options.statics_only) {
@@ -63,7 +64,8 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
     StepControl control(phase, options.step);
     NewtonOptions newton;
     newton.max_iterations = options.newton_iterations;
-    newton.tolerance = 2e-2;
+    newton.tolerance = 1e-2;
+    newton.still = 1e-2;
     while (progress.time < until - 1e-9) {
         // Steps end on frame times, so that frames show computed states and not interpolated ones.
         const double frame_end = frame_interval * (std::floor(progress.time / frame_interval + 1e-6) + 1);

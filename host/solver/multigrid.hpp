@@ -2,13 +2,15 @@
 // Part of linear_device.cpp, which is built once per precision of `linear`: nothing here has external linkage.
 #include <cstdint>
 
+#include <Eigen/SparseCholesky>
+
 #include "host/solver/block_matrix.hpp"
 
 namespace selvage {
 namespace {
 
 /// Multigrid V-cycle on a hierarchy of interpolations with Galerkin coarse matrices P^T A P, Chebyshev smoothing over
-/// block Jacobi, and a dense Cholesky solve at the coarsest level. Symmetric, so it preconditions conjugate gradients.
+/// block Jacobi, and a sparse Cholesky solve at the coarsest level. Symmetric, so it preconditions conjugate gradients.
 /// Source: Tamstorf, Jones and McCormick 2015 for cloth; Adams and others 2003 for the smoother.
 class Multigrid {
 public:
@@ -49,7 +51,7 @@ private:
     }
 
     std::vector<Level> levels_;
-    Eigen::LLT<Eigen::MatrixXd> coarsest_;
+    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> coarsest_;
 };
 
 Multigrid::Multigrid(const BlockPattern& finest, const std::vector<char>& pinned, const ParticleTransfers& transfers)
@@ -152,17 +154,20 @@ void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, BlockMatr
 void Multigrid::factorise_coarsest()
 {
     const BlockMatrix& a = levels_.back().matrix;
-    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * a.rows(), 3 * a.rows());
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(9 * a.column.size());
     for (int row = 0; row < a.rows(); ++row)
         for (int k = a.row_begin[row]; k < a.row_begin[row + 1]; ++k)
-            for (int c = 0; c < 9; ++c) dense(3 * row + c / 3, 3 * a.column[k] + c % 3) = a.block[9 * std::size_t(k) + c];
-    dense = (0.5 * (dense + dense.transpose())).eval();
+            for (int c = 0; c < 9; ++c)
+                entries.emplace_back(3 * row + c / 3, 3 * a.column[k] + c % 3, double(a.block[9 * std::size_t(k) + c]));
+    Eigen::SparseMatrix<double> matrix(3 * a.rows(), 3 * a.rows());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    if (coarsest_.rows() == 0) coarsest_.analyzePattern(matrix);
     // An indefinite matrix (full Hessian of compressed cloth) is shifted until it can be factorised.
-    double shift = 1e-9 * std::max(dense.trace(), 1e-300) / double(dense.rows());
+    double shift = 1e-9 * std::max(matrix.diagonal().sum(), 1e-300) / double(matrix.rows());
     for (int attempt = 0; attempt < 16; ++attempt, shift *= 10) {
-        Eigen::MatrixXd shifted = dense;
-        shifted.diagonal().array() += shift;
-        coarsest_.compute(shifted);
+        coarsest_.setShift(shift);
+        coarsest_.factorize(matrix);
         if (coarsest_.info() == Eigen::Success) return;
     }
 }

@@ -126,18 +126,38 @@ void Newton::place(double fraction)
     });
 }
 
+double Newton::largest_move() const
+{
+    const int vs = state_.size.vertex_stride;
+    return std::sqrt(max_items(state_.size.vertex_count, [this, vs](int v) {
+        const double x = direction_[v], y = direction_[vs + v], z = direction_[2 * vs + v];
+        return x * x + y * y + z * z;
+    }));
+}
+
+// The largest part of the direction that carries no vertex further than what is known of the bodies around it.
+double Newton::longest_fraction(const NewtonOptions& options) const
+{
+    if (!contact_) return 1;
+    const int vs = state_.size.vertex_stride;
+    const double excess = max_items(state_.size.vertex_count, [this, vs, &options](int v) {
+        double squared_way = 0, squared_normal = 0;
+        for (int c = 0; c < 3; ++c) {
+            squared_way += direction_[c * vs + v] * direction_[c * vs + v];
+            squared_normal += state_.contact_normal[c * vs + v] * state_.contact_normal[c * vs + v];
+        }
+        return std::sqrt(squared_way) / (squared_normal > 0 ? options.max_move : options.max_far_move);
+    });
+    return excess > 1 ? 1 / excess : 1;
+}
+
 // Backtracks until the objective falls by a fraction of what the slope promises. Below the rounding noise of the
 // objective the slope itself decides: a direction that still points downhill has not gone too far.
 bool Newton::search_line(double slope, const NewtonOptions& options)
 {
     base_ = state_.pos;
     const double before = objective();
-    const int vs = state_.size.vertex_stride;
-    const double furthest = std::sqrt(max_items(state_.size.vertex_count, [this, vs](int v) {
-        const double x = direction_[v], y = direction_[vs + v], z = direction_[2 * vs + v];
-        return x * x + y * y + z * z;
-    }));
-    double fraction = furthest > options.max_move ? options.max_move / furthest : 1;
+    double fraction = longest_fraction(options);
     const double noise = 1e-13 * std::abs(before) + 1e-16;
     for (int attempt = 0; attempt < 16; ++attempt) {
         place(fraction);
@@ -164,8 +184,10 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
         report.converged = report.residual <= options.tolerance;
         if (report.converged || report.iterations == options.max_iterations) return report;
         const double slope = search_direction(options, report);
+        // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the force.
+        report.converged = largest_move() <= options.still * dt_;
         report.stuck = !std::isfinite(slope) || !search_line(slope, options);
-        if (report.stuck) return report;
+        if (report.stuck || report.converged) return report;
     }
 }
 

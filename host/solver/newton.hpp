@@ -13,8 +13,10 @@ namespace selvage {
 struct NewtonOptions {
     int max_iterations = 12;
     double tolerance = 1e-2;           ///< Norm of the objective's gradient over the force scale [1].
+    double still = 0;                  ///< A step is also done when an iteration moves no vertex faster than this [m/s].
     double linear_tolerance = 0.05;    ///< Relative residual of the linear solves [1].
     double max_move = 0.02;            ///< Largest way of a vertex near a body in one iteration [m].
+    double max_far_move = 0.1;         ///< Largest way of a vertex that is not near one, if there are bodies [m].
     bool full_stiffness = false;       ///< Exact second derivatives instead of the projected ones.
 };
 
@@ -55,6 +57,8 @@ private:
     double gradient_norm() const;
     double search_direction(const NewtonOptions& options, NewtonReport& report);
     bool search_line(double slope, const NewtonOptions& options);
+    double largest_move() const;
+    double longest_fraction(const NewtonOptions& options) const;
     void place(double fraction);
     NewtonReport iterate(const NewtonOptions& options, bool settle_each);
 

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "io/memory.hpp"
-
 namespace selvage {
 namespace {
 
@@ -137,8 +135,7 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
 
 void check_memory(const Scene& scene, const RunPlan& plan)
 {
-    const double limit =
-        scene.solver.memory_limit > 0 ? scene.solver.memory_limit : 0.9 * double(physical_memory_bytes());
+    const double limit = memory_limit(scene);
     if (double(plan.peak_bytes) <= limit) return;
     const std::string key = scene.has_garment() ? "garment.resolution" : "sheet[0].resolution";
     throw InputError(scene.place(key),
