@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/run.hpp"
+#include "host/restart.hpp"
 #include "host/run_recorder.hpp"
 #include "host/scene_model.hpp"
 #include "host/solver/equilibrium.hpp"
@@ -21,18 +22,21 @@ public:
 
 private:
     void start_phase(const std::string& name, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
-    void restore();
+    void begin();
+    void resume();
     void save();
+    PhaseEnd run_phases();
     PhaseEnd run_sewing();
     void join_seams();
     PhaseEnd run_pressing();
-    PhaseEnd run_drape_phase();
+    PhaseEnd run_draping();
     bool after_step(const StepEvent& event);
     double elapsed() const;
     RunOutcome conclude(RunStatus status, const std::string& message);
     RunOutcome conclude_stopped();
-    RunOutcome conclude_unsewn();
-    RunOutcome conclude_draped(PhaseEnd end);
+    std::string why_not_done() const;
+
+    std::string checkpoint_path() const { return options_.folder + "/checkpoint.h5"; }
 
     const Scene& scene_;
     RunOptions options_;
@@ -42,13 +46,9 @@ private:
     Profile profile_;
     std::optional<BodyQuery> query_;
     std::unique_ptr<Phase> phase_;
-    std::string phase_name_;
-    SewingProgress sewing_;
-    DrapeProgress draping_;
-    RunCounters counters_;
+    RunProgress progress_;
     double wall_before_ = 0;        ///< Of the runs that this one resumes [s].
     double last_checkpoint_ = 0;    ///< elapsed() then [s].
-    bool wall_limit_hit_ = false;
     std::unique_ptr<RunRecorder> recorder_;
 };
 

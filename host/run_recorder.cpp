@@ -23,6 +23,13 @@ void make_folder(const std::string& folder)
     if (error) throw InputError({folder, 0, 0, {}}, error.message(), "a folder that can be made or written");
 }
 
+void remove_file(const std::string& path)
+{
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) throw InputError({path, 0, 0, {}}, error.message(), "a file of an earlier run, or nothing");
+}
+
 TrajectoryLayout trajectory_layout(const Scene& scene, const Cloth& cloth, const Topology& topology)
 {
     TrajectoryLayout layout;
@@ -50,8 +57,8 @@ RunRecorder::RunRecorder(const Scene& scene, const SceneModel& model, const RunO
     if (!resume)
         for (const char* stale : {"summary.json", "run.h5", "run.xdmf", "sewing.h5", "sewing.xdmf", "final.obj",
                                   "preview.png", "body.obj", "checkpoint.h5"})
-            std::filesystem::remove(folder_ + "/" + stale);
-    std::filesystem::remove(folder_ + "/summary.json");
+            remove_file(folder_ + "/" + stale);
+    remove_file(folder_ + "/summary.json");
     ProgressOptions progress;
     progress.path = folder_ + "/progress.jsonl";
     progress.append = resume;
@@ -102,10 +109,11 @@ void RunRecorder::report(const std::string& phase, const StepEvent& event, int s
 void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force)
 {
     iterations_since_frame_ += event.newton_iterations;
+    relaxed_since_frame_ = relaxed_since_frame_ || (event.dt == 0 && event.newton_iterations > 0);
     const double interval = 1 / scene_.solver.frame_rate;
-    // A frame is also due when the step after this one would overshoot the frame's time by more than it is early.
     const bool due = scene_.output.frames && event.dt > 0 && event.time >= next_frame_ - 1e-9;
-    if (!trajectory_ || !(due || force)) return;
+    const bool moved = event.time > last_frame_ || relaxed_since_frame_;
+    if (!trajectory_ || !(due || (force && moved))) return;
     FrameScalars scalars;
     scalars.time = event.time > last_frame_ ? event.time : last_frame_ + interval;
     scalars.kinetic_energy = phase.newton().kinetic_energy();
@@ -116,6 +124,7 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
     scalars.iterations = iterations_since_frame_;
     trajectory_->write_frame(phase.positions(), scalars);
     iterations_since_frame_ = 0;
+    relaxed_since_frame_ = false;
     last_frame_ = scalars.time;
     next_frame_ = interval * (std::floor(scalars.time / interval + 1e-6) + 1);
 }

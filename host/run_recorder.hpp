@@ -29,6 +29,7 @@ struct RunCounters {
 class RunRecorder {
 public:
     /// @param resume  keep what an earlier run left and append to it
+    /// @throws InputError if the folder or a file in it cannot be written
     RunRecorder(const Scene& scene, const SceneModel& model, const RunOptions& options, bool resume);
     ~RunRecorder();
 
@@ -40,11 +41,9 @@ public:
 
     /// Tells the user where the run stands.
     void report(const std::string& phase, const StepEvent& event, int steps);
-    /// Writes a frame if one is due at this time, or if `force`.
+    /// Writes a frame if one is due at this time, or if `force` and the cloth has moved since the last one.
     void write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force);
     int frame_count() const { return trajectory_ ? trajectory_->frame_count() : 0; }
-
-    std::string checkpoint_path() const { return folder_ + "/checkpoint.h5"; }
 
     /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
     void conclude(RunStatus status, Phase& phase, const RunPlan& plan, const BodyQuery* query,
@@ -64,6 +63,7 @@ private:
     double last_frame_ = -1;         ///< Time of the last written frame [s].
     int frames_ = 0;                 ///< Of run.h5.
     int iterations_since_frame_ = 0;
+    bool relaxed_since_frame_ = false;   ///< By static iterations, which take no simulated time.
     bool sewing_phase_ = false;
 };
 

@@ -140,7 +140,7 @@ std::vector<Body> build_bodies(const Scene& scene)
     for (int i = 0; i < int(scene.bodies.size()); ++i) {
         const BodyScene& body = scene.bodies[i];
         if (body.shape == "mannequin") {
-            bodies.push_back(make_body(body, scene, i, make_mannequin(body_measures(body))));
+            bodies.push_back(make_body(body, scene, i, make_mannequin(body_measures(body), scene.place("body[" + std::to_string(i) + "]"))));
         } else if (body.shape == "mesh") {
             const std::string file = scene.resolve(body.mesh);
             bodies.push_back(make_body(body, scene, i, read_obj(file, body.unit, body.up_axis)));

@@ -28,12 +28,12 @@ constexpr std::array<Bound, 8> bounds{{{"stature", &MannequinMeasures::stature, 
                                        {"arm_length", &MannequinMeasures::arm_length, 0.45, 0.75},
                                        {"arm_angle", &MannequinMeasures::arm_angle, 0.0, 80.0}}};
 
-void check(const MannequinMeasures& measures) {
+void check(const MannequinMeasures& measures, const InputPlace& body) {
     for (const Bound& bound : bounds) {
         const double value = measures.*bound.member;
         if (value >= bound.low && value <= bound.high) continue;
-        InputPlace place;
-        place.key = fmt::format("mannequin.{}", bound.name);
+        InputPlace place = body;
+        place.key += fmt::format(".{}", bound.name);
         const char* unit = bound.member == &MannequinMeasures::arm_angle ? "degrees" : "m";
         throw InputError(place, fmt::format("{}", value),
                          fmt::format("a value from {} to {} {}", bound.low, bound.high, unit));
@@ -64,12 +64,12 @@ MannequinMeasures mannequin_size(const std::string& size) {
     if (size == "M") return {};
     if (size == "L") return {1.74, 1.00, 0.83, 1.08, 0.415, 0.370, 0.610, 45};
     InputPlace place;
-    place.key = "mannequin.size";
+    place.key = "body.size";
     throw InputError(place, fmt::format("\"{}\"", size), "S, M or L");
 }
 
-TriangleMesh make_mannequin(const MannequinMeasures& measures) {
-    check(measures);
+TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace& body) {
+    check(measures, body);
     const MannequinShape shape(measures);
     const MannequinLandmarks at = shape.landmarks();
     const double margin = 0.08, hand = 0.22 * measures.stature / 1.70;
@@ -82,7 +82,7 @@ TriangleMesh make_mannequin(const MannequinMeasures& measures) {
 }
 
 MannequinLandmarks mannequin_landmarks(const MannequinMeasures& measures) {
-    check(measures);
+    check(measures, {"", 0, 0, "body"});
     return MannequinShape(measures).landmarks();
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <string>
 
+#include "io/errors.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
@@ -41,8 +42,9 @@ MannequinMeasures mannequin_size(const std::string& size);
 /// standing on z = 0 about x = y = 0, facing -y; the wearer's left is +x. A closed, outward oriented 2-manifold
 /// with the parts head, neck, torso, left_arm, right_arm, left_leg, right_leg. The girths are those of a tape
 /// (the convex hull of a horizontal section) and agree with the measures within 1 %.
+/// @param body  where the measures stand, for messages
 /// @throws InputError for measures outside the range in which the shape is sound
-TriangleMesh make_mannequin(const MannequinMeasures& measures);
+TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace& body = {"", 0, 0, "body"});
 
 /// The landmarks of the mannequin that make_mannequin() makes from the same measures.
 /// @throws InputError as make_mannequin()

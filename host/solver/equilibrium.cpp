@@ -10,6 +10,21 @@ constexpr int relax_chunk = 5;      // static iterations between two looks at in
 constexpr int relax_chunks = 12;
 constexpr int steps_between = 8;    // motion after a static attempt that did not reach the tolerance
 
+// What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
+struct SavedShape {
+    std::vector<real> pos, vel, anchor, limit;
+};
+
+SavedShape shape_of(const State& s) { return {s.pos, s.vel, s.friction_anchor, s.friction_limit}; }
+
+void restore(State& state, const SavedShape& saved)
+{
+    state.pos = saved.pos;
+    state.vel = saved.vel;
+    state.friction_anchor = saved.anchor;
+    state.friction_limit = saved.limit;
+}
+
 // Minimises the static energy. It never rises, so an attempt that falls short still leaves the cloth nearer to rest.
 PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress, const AfterStep& after_step)
 {
@@ -18,16 +33,26 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
     newton.tolerance = options.tolerance;
     newton.linear_tolerance = 0.02;
     newton.full_stiffness = true;
+    const SavedShape start = shape_of(phase.state());
     double best = 1e300;
     for (int chunk = 0; chunk < relax_chunks; ++chunk) {
         const NewtonReport report = phase.newton().relax(newton);
-        if (!after_step({progress.time, 0, report.iterations, report.linear_iterations, report.residual}))
+        if (!after_step({progress.time, 0, report.iterations, report.linear_iterations, report.residual})) {
+            restore(phase.state(), start);
             return PhaseEnd::stopped;
+        }
         if (report.converged) return PhaseEnd::reached;
+        if (chunk + 1 == relax_chunks || report.stuck) progress.residual = report.residual;
         if (report.stuck || (chunk > 3 && report.residual > 0.8 * best)) return PhaseEnd::time_limit;
         best = std::min(best, report.residual);
     }
     return PhaseEnd::time_limit;
+}
+
+bool nearly_balanced(const EquilibriumOptions& options, const DrapeProgress& progress)
+{
+    return progress.residual <= options.tolerance ||
+           (progress.hold <= 0 && progress.residual <= progress.switch_residual);
 }
 
 }  // namespace
@@ -35,33 +60,35 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
 PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
                               const AfterStep& after_step)
 {
+    if (options.statics_only) return relax(phase, options, progress, after_step);
     StepControl control(phase, options.step);
+    if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = std::min(options.newton_iterations, 3);
     newton.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
-    while (progress.time < options.max_time || options.statics_only) {
-        double residual = 0;
-        if (!options.statics_only) {
-            progress.time += control.advance(options.step, newton, false);
-            residual = phase.newton().static_residual();
-            const StepEvent event{progress.time, control.dt(), control.report().iterations,
-                                  control.report().linear_iterations, residual};
-            if (!after_step(event)) return PhaseEnd::stopped;
-            const bool wait = --progress.hold > 0 || residual > progress.switch_residual;
-            if (wait && residual > options.tolerance) continue;
+    for (;;) {
+        if (nearly_balanced(options, progress)) {
+            const PhaseEnd end = relax(phase, options, progress, after_step);
+            if (end != PhaseEnd::time_limit) return end;
+            progress.switch_residual = std::max(0.5 * progress.switch_residual, 2 * options.tolerance);
+            progress.hold = steps_between;
         }
-        const PhaseEnd end = relax(phase, options, progress, after_step);
-        if (end != PhaseEnd::time_limit || options.statics_only) return end;
-        progress.switch_residual = std::max(0.5 * progress.switch_residual, 2 * options.tolerance);
-        progress.hold = steps_between;
+        if (progress.time >= options.max_time) return PhaseEnd::time_limit;
+        progress.time += control.advance(options.step, newton, false);
+        progress.dt = control.dt();
+        progress.residual = phase.newton().static_residual();
+        --progress.hold;
+        if (!after_step({progress.time, control.taken(), control.report().iterations,
+                         control.report().linear_iterations, progress.residual}))
+            return PhaseEnd::stopped;
     }
-    return PhaseEnd::time_limit;
 }
 
 PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double until, double frame_interval,
                      DrapeProgress& progress, const AfterStep& after_step)
 {
     StepControl control(phase, options.step);
+    if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = options.newton_iterations;
     newton.tolerance = 1e-2;
@@ -71,6 +98,7 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
         const double frame_end = frame_interval * (std::floor(progress.time / frame_interval + 1e-6) + 1);
         const double dt = control.advance(std::min(frame_end, until) - progress.time, newton, true);
         progress.time += dt;
+        progress.dt = control.dt();
         const StepEvent event{progress.time, dt, control.report().iterations, control.report().linear_iterations,
                               phase.newton().static_residual()};
         if (!after_step(event)) return PhaseEnd::stopped;

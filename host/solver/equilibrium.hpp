@@ -16,6 +16,8 @@ struct DrapeProgress {
     double time = 0;             ///< [s]
     double switch_residual = 0.5; ///< Below it the static energy is minimised; lowered when that came too early.
     int hold = 0;                ///< Steps to take before the next attempt.
+    double residual = 1e30;      ///< Static residual after the last step [1].
+    double dt = 0;               ///< Of the next step; 0: the longest [s].
 };
 
 /// Lets the cloth fall with implicit steps, which are dissipative, and finishes with Newton's method on the static

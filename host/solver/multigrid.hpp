@@ -29,7 +29,7 @@ private:
         BlockMatrix matrix;                      // empty at the finest level: the solver's own is used
         BlockJacobi jacobi;
         double largest_eigenvalue = 0;           // of D^-1 A, estimated from below and grown a little
-        LinearVector x, b, r, z, d, power;
+        LinearVector x, b, r, z, d;
         // Interpolation from the next coarser level, and its transpose.
         std::vector<int> up_begin, up_column, down_begin, down_row;
         std::vector<linear> up_weight, down_weight;
@@ -172,21 +172,19 @@ void Multigrid::factorise_coarsest()
     }
 }
 
+// Power iteration from the same start each time: what a solve does must not depend on the solves before it, or a
+// resumed run would go another way.
 void Multigrid::estimate_eigenvalue(const BlockMatrix& matrix, Level& level)
 {
-    const bool first = level.power.empty();
-    if (first) {
-        level.power.resize(level.x.size());
-        std::uint32_t seed = 1;   // a fixed sequence: the same run gives the same bits
-        for (linear& v : level.power) v = linear(int((seed = seed * 1664525u + 1013904223u) >> 16) % 2001 - 1000) / 1000;
-    }
+    std::uint32_t seed = 1;
+    for (linear& v : level.x) v = linear(int((seed = seed * 1664525u + 1013904223u) >> 16) % 2001 - 1000) / 1000;
     double growth = 1;
-    for (int round = 0; round < (first ? 12 : 4); ++round) {
-        const double size = std::sqrt(dot(level.power, level.power));
-        for_each_item(int(level.power.size()), [v = level.power.data(), s = linear(1 / size)](int i) { v[i] *= s; });
-        matrix.multiply(level.power, level.r);
-        level.jacobi.apply(level.r, level.power);
-        growth = std::sqrt(dot(level.power, level.power));
+    for (int round = 0; round < 7; ++round) {
+        const double size = std::sqrt(dot(level.x, level.x));
+        for_each_item(int(level.x.size()), [v = level.x.data(), s = linear(1 / size)](int i) { v[i] *= s; });
+        matrix.multiply(level.x, level.r);
+        level.jacobi.apply(level.r, level.x);
+        growth = std::sqrt(dot(level.x, level.x));
     }
     level.largest_eigenvalue = 1.15 * growth;
 }

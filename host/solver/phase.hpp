@@ -39,6 +39,7 @@ public:
     const State& state() const { return state_; }
     const Topology& topology() const { return topology_; }
     Params& params() { return options_.params; }
+    const Params& params() const { return options_.params; }
     Newton& newton() { return *newton_; }
     ContactField* contact() { return contact_.get(); }
     const ContactField* contact() const { return contact_.get(); }

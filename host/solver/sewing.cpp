@@ -30,50 +30,73 @@ double largest_gap(const Phase& phase)
     }));
 }
 
+namespace {
+
+bool closed(const SewingOptions& options, const SewingProgress& progress)
+{
+    const bool settled =
+        progress.energy_change <= options.energy_tolerance || progress.steps_without_gain >= patience;
+    return progress.gap <= options.closed && (settled || progress.gap <= 0.25 * options.closed);
+}
+
+void pull_harder_if_stuck(Phase& phase, const SewingOptions& options, SewingProgress& progress)
+{
+    if (progress.gap <= options.closed || progress.steps_without_gain < patience ||
+        phase.params().seam.stiffness >= strongest_pull * options.first_stiffness)
+        return;
+    phase.params().seam.stiffness *= 2;
+    phase.params().seam.force_limit *= 1.5;
+    progress.steps_without_gain = 0;
+}
+
+void note_step(Phase& phase, SewingProgress& progress)
+{
+    const double energy = phase.newton().energy_of("membrane") + phase.newton().energy_of("bending");
+    progress.gap = largest_gap(phase);
+    progress.energy_change = std::abs(energy - progress.elastic_energy) / std::max(energy, 1e-12);
+    progress.elastic_energy = energy;
+    progress.steps_without_gain = progress.gap < 0.98 * progress.best_gap ? 0 : progress.steps_without_gain + 1;
+    progress.best_gap = std::min(progress.best_gap, progress.gap);
+}
+
+}  // namespace
+
 PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progress, const AfterStep& after_step)
 {
     StepControl control(phase, options.step);
+    if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = 3;   // on the way to a closed seam accuracy in time is worth nothing
     newton.tolerance = 1e-2;
-    const double first_stiffness = phase.params().seam.stiffness;
-    while (progress.time < options.max_time) {
+    while (!closed(options, progress)) {
+        if (progress.time >= options.max_time) return PhaseEnd::time_limit;
+        pull_harder_if_stuck(phase, options, progress);
         progress.time += control.advance(options.step, newton, false);
-        const double gap = largest_gap(phase);
-        const double energy = phase.newton().energy_of("membrane") + phase.newton().energy_of("bending");
-        const double change = std::abs(energy - progress.elastic_energy) / std::max(energy, 1e-12);
-        progress.elastic_energy = energy;
-        progress.steps_without_gain = gap < 0.98 * progress.best_gap ? 0 : progress.steps_without_gain + 1;
-        progress.best_gap = std::min(progress.best_gap, gap);
-        const StepEvent event{progress.time, control.dt(), control.report().iterations,
-                              control.report().linear_iterations, gap / options.closed};
-        if (!after_step(event)) return PhaseEnd::stopped;
-        const bool settled = change <= options.energy_tolerance || progress.steps_without_gain >= patience;
-        if (gap <= options.closed && (settled || gap <= 0.25 * options.closed)) return PhaseEnd::reached;
-        if (gap > options.closed && progress.steps_without_gain >= patience &&
-            phase.params().seam.stiffness < strongest_pull * first_stiffness) {
-            phase.params().seam.stiffness *= 2;
-            phase.params().seam.force_limit *= 1.5;
-            progress.steps_without_gain = 0;
-        }
+        progress.dt = control.dt();
+        note_step(phase, progress);
+        if (!after_step({progress.time, control.taken(), control.report().iterations,
+                         control.report().linear_iterations, progress.gap / options.closed}))
+            return PhaseEnd::stopped;
     }
-    return PhaseEnd::time_limit;
+    return PhaseEnd::reached;
 }
 
-PhaseEnd press_seams(Phase& phase, double step, const AfterStep& after_step)
+PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const AfterStep& after_step)
 {
     const Params worn = phase.params();
     phase.params().bending.scale *= press_bending;
     phase.params().friction.scale = 0;
     phase.params().gravity = {};
     StepControl control(phase, step);
+    if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = 2;
-    double time = 0;
     PhaseEnd end = PhaseEnd::reached;
-    for (int k = 0; k < press_steps && end == PhaseEnd::reached; ++k) {
-        time += control.advance(step, newton, false);
-        if (!after_step({time, control.dt(), control.report().iterations, control.report().linear_iterations,
+    while (progress.step < press_steps && end == PhaseEnd::reached) {
+        control.advance(step, newton, false);
+        ++progress.step;
+        progress.dt = control.dt();
+        if (!after_step({0, control.taken(), control.report().iterations, control.report().linear_iterations,
                          control.report().residual}))
             end = PhaseEnd::stopped;
     }

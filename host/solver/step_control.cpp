@@ -29,6 +29,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
         const double dt = std::min(dt_, room);
         if (attempt(dt, options, accurate)) {
             dt_ = std::min(longest_, 1.5 * dt_);
+            taken_ = dt;
             return dt;
         }
         ++retries_;

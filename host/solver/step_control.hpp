@@ -33,7 +33,8 @@ public:
     double advance(double room, const NewtonOptions& options, bool accurate);
 
     const NewtonReport& report() const { return report_; }   ///< Of the accepted step.
-    double dt() const { return dt_; }
+    double dt() const { return dt_; }          ///< That the next step will try [s].
+    double taken() const { return taken_; }    ///< Of the last accepted step [s].
     void set_dt(double dt) { dt_ = dt; }
     int retries() const { return retries_; }
 
@@ -42,6 +43,7 @@ private:
 
     Phase& phase_;
     double longest_, dt_;
+    double taken_ = 0;
     int retries_ = 0;
     NewtonReport report_;
     std::vector<real> pos_, vel_, anchor_, limit_;

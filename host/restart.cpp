@@ -1,0 +1,132 @@
+#include "host/restart.hpp"
+
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "io/errors.hpp"
+
+namespace selvage {
+namespace {
+
+// FNV-1a, over the bits of what a model consists of.
+class Fingerprint {
+public:
+    template <class T>
+    void add(const T& value)
+    {
+        unsigned char bytes[sizeof(T)];
+        std::memcpy(bytes, &value, sizeof(T));
+        for (unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211ull;
+    }
+    void add(const Vec3& x)
+    {
+        for (int c = 0; c < 3; ++c) add(x[c]);
+    }
+    std::string text() const { return fmt::format("{:016x}", hash_); }
+
+private:
+    unsigned long long hash_ = 14695981039346656037ull;
+};
+
+template <class T>
+const std::vector<T>& array_of(const std::map<std::string, std::vector<T>>& arrays, const std::string& name,
+                               const std::string& path, std::size_t size)
+{
+    const auto at = arrays.find(name);
+    const std::size_t found = at == arrays.end() ? 0 : at->second.size();
+    if (at == arrays.end() || found != size)
+        throw InputError({path, 0, 0, name}, fmt::format("{} numbers", found), fmt::format("{} numbers", size));
+    return at->second;
+}
+
+}  // namespace
+
+std::string model_fingerprint(const SceneModel& model)
+{
+    Fingerprint print;
+    const Cloth& cloth = model.model.cloth;
+    for (const Vec3& x : cloth.positions) print.add(x);
+    for (const Vec2& u : cloth.panel_coordinates) {
+        print.add(u.x());
+        print.add(u.y());
+    }
+    for (const Face& f : cloth.faces) print.add(f);
+    for (const auto& pair : cloth.seam_pairs) print.add(pair);
+    for (const auto& [name, f] : model.model.fabrics)
+        for (double value : {f.areal_density, f.stretch_weft, f.stretch_warp, f.stretch_coupling, f.shear,
+                             f.bending_weft, f.bending_warp, f.friction, f.damping})
+            print.add(value);
+    for (const Body& body : model.model.bodies)
+        for (const Vec3& x : body.mesh.vertices) print.add(x);
+    return print.text();
+}
+
+void save_run(const std::string& path, const SceneModel& model, const RunProgress& p, const Phase& phase)
+{
+    const State& state = phase.state();
+    Checkpoint checkpoint;
+    checkpoint.words = {{"model", model_fingerprint(model)}, {"phase", p.phase}};
+    checkpoint.integers["counts"] = {p.counters.steps, p.counters.newton_iterations, p.counters.linear_iterations,
+                                     p.frames, p.sewing.steps_without_gain, p.pressing.step, p.draping.hold};
+    checkpoint.reals["clock"] = {p.counters.simulated, p.wall_seconds};
+    checkpoint.reals["sewing"] = {p.sewing.time, p.sewing.best_gap, p.sewing.elastic_energy, p.sewing.gap,
+                                  p.sewing.energy_change, p.sewing.dt, phase.params().seam.stiffness,
+                                  phase.params().seam.force_limit};
+    checkpoint.reals["draping"] = {p.pressing.dt, p.draping.time, p.draping.switch_residual, p.draping.residual,
+                                   p.draping.dt};
+    checkpoint.reals["pos"] = state.pos;
+    checkpoint.reals["vel"] = state.vel;
+    checkpoint.reals["friction_anchor"] = state.friction_anchor;
+    checkpoint.reals["friction_limit"] = state.friction_limit;
+    for (const auto& [name, seconds] : p.counters.phases) checkpoint.reals["phase_" + name] = {seconds};
+    write_checkpoint(path, checkpoint);
+}
+
+RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path, const SceneModel& model)
+{
+    const auto word = [&](const char* name) {
+        const auto at = checkpoint.words.find(name);
+        return at == checkpoint.words.end() ? std::string() : at->second;
+    };
+    if (word("model") != model_fingerprint(model))
+        throw InputError({path, 0, 0, "model"}, "the checkpoint of another cloth, fabric or body",
+                         "one left by this scene; run without --resume to start anew");
+    RunProgress p;
+    p.phase = word("phase");
+    if (p.phase != "sew" && p.phase != "press" && p.phase != "drape")
+        throw InputError({path, 0, 0, "phase"}, "`" + p.phase + "`", "sew, press or drape");
+    const auto& counts = array_of(checkpoint.integers, "counts", path, 7);
+    const auto& clock = array_of(checkpoint.reals, "clock", path, 2);
+    const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
+    const auto& draping = array_of(checkpoint.reals, "draping", path, 5);
+    p.counters.steps = counts[0];
+    p.counters.newton_iterations = counts[1];
+    p.counters.linear_iterations = counts[2];
+    p.frames = counts[3];
+    p.counters.simulated = clock[0];
+    p.wall_seconds = clock[1];
+    p.sewing = {sewing[0], sewing[1], counts[4], sewing[2], sewing[3], sewing[4], sewing[5]};
+    p.pressing = {counts[5], draping[0]};
+    p.draping = {draping[1], draping[2], counts[6], draping[3], draping[4]};
+    for (const auto& [name, values] : checkpoint.reals)
+        if (name.starts_with("phase_") && !values.empty()) p.counters.phases[name.substr(6)] = values.front();
+    return p;
+}
+
+void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase& phase)
+{
+    State& state = phase.state();
+    const auto take = [&](const char* name, std::vector<real>& to) {
+        to = array_of(checkpoint.reals, name, path, to.size());
+    };
+    take("pos", state.pos);
+    take("vel", state.vel);
+    take("friction_anchor", state.friction_anchor);
+    take("friction_limit", state.friction_limit);
+    const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
+    phase.params().seam.stiffness = sewing[6];
+    phase.params().seam.force_limit = sewing[7];
+}
+
+}  // namespace selvage
