@@ -164,7 +164,8 @@ RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
 {
     const double residual = phase_->newton().static_residual();
     const StepEvent event{progress_.phase == "sew" ? progress_.sewing.time : progress_.draping.time, 0, 0, 0, residual};
-    recorder_->write_frame(*phase_, event, elapsed(), true);
+    // A garment that is still being pressed is not yet the draped one that run.h5 begins with.
+    if (progress_.phase != "press") recorder_->write_frame(*phase_, event, elapsed(), true);
     save();
     recorder_->close_phase();
     recorder_->conclude(status, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters, profile_, residual,
