@@ -44,6 +44,7 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
     params.bending.scale = scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
     params.damping.scale = any_fabric(model, &Fabric::damping) ? 1 : 0;
     if (sewing) {
+        params.bending.scale *= scene.seams.stiffening;
         // A stitch stands for one edge length of seam, so that sewing does not depend on the resolution.
         params.seam.stiffness = scene.seams.stiffness * model.edge_length;
         params.seam.force_limit = scene.seams.force_limit * model.edge_length;
