@@ -76,7 +76,7 @@
     KEY(double, energy_tolerance, 1e-4, "1", 0, 1, "sewing: relative change of elastic energy between steps at which it may stop") \
     KEY(double, max_time, 30, "s", 0, 1e6, "simulated time after which a run to equilibrium gives up")           \
     KEY(double, max_wall, 0, "s", 0, 1e7, "wall time after which the run is saved and ends; 0: no limit")        \
-    KEY(int, newton_iterations, 12, "1", 1, 1000, "Newton iterations per step before it is retried smaller")     \
+    KEY(int, newton_iterations, 40, "1", 1, 1000, "Newton iterations per step before it is retried smaller")     \
     KEY(int, linear_iterations, 600, "1", 1, 100000, "conjugate-gradient iterations per Newton iteration")       \
     WORD(preconditioner, "auto", "auto|block_jacobi|multigrid", "preconditioner of the conjugate gradients; auto: multigrid where levels exist") \
     WORD(precision, "float", "float|double", "precision of the linear solves; state and forces are always double") \
