@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -130,7 +131,6 @@ PhaseEnd DrapeRun::run_draping()
     options.tolerance = scene_.solver.tolerance;
     options.max_time = scene_.solver.max_time;
     options.newton_iterations = scene_.solver.newton_iterations;
-    options.statics_only = scene_.solver.integrator == "static";
     const AfterStep hear = [this](const StepEvent& event) { return after_step(event); };
     if (scene_.solver.until == "equilibrium") return drape_to_equilibrium(*phase_, options, progress_.draping, hear);
     return drape_until(*phase_, options, std::stod(scene_.solver.until), 1 / scene_.solver.frame_rate,
@@ -172,6 +172,7 @@ RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
                         elapsed(), message);
     const bool complete = status == RunStatus::converged || status == RunStatus::finished;
     if (complete && !scene_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());
+    if (options_.profile) fmt::print(stderr, "{}", profile_.table());
     int code = complete ? 0 : 4;
     if (status == RunStatus::diverged) code = 3;
     if (status == RunStatus::interrupted) code = interrupt_exit_code();

@@ -69,7 +69,7 @@
     WORD(source, "", "", "where the values come from")
 
 #define SOLVER_KEYS(KEY, WORD, VEC3)                                                                             \
-    WORD(integrator, "implicit_euler", "implicit_euler|static", "how time is advanced")                          \
+    WORD(integrator, "implicit_euler", "implicit_euler", "how time is advanced")                          \
     WORD(until, "equilibrium", "", "\"equilibrium\", or the simulated seconds to run")                           \
     KEY(double, step, 0.02, "s", 1e-6, 1, "time step; it shrinks by itself where a step fails")                  \
     KEY(double, tolerance, 1e-3, "1", 1e-9, 1, "equilibrium: net force over gravity force on free vertices")     \

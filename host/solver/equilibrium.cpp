@@ -60,7 +60,6 @@ bool nearly_balanced(const EquilibriumOptions& options, const DrapeProgress& pro
 PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
                               const AfterStep& after_step)
 {
-    if (options.statics_only) return relax(phase, options, progress, after_step);
     StepControl control(phase, options.step);
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
@@ -92,7 +91,7 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
     NewtonOptions newton;
     newton.max_iterations = options.newton_iterations;
     newton.tolerance = 1e-2;
-    newton.still = 1e-2;
+    newton.still = 3e-2;
     while (progress.time < until - 1e-9) {
         // Steps end on frame times, so that frames show computed states and not interpolated ones.
         const double frame_end = frame_interval * (std::floor(progress.time / frame_interval + 1e-6) + 1);

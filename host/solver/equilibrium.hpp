@@ -8,7 +8,6 @@ struct EquilibriumOptions {
     double tolerance = 1e-3;     ///< Relative static force residual to reach [1].
     double max_time = 30;        ///< Simulated time after which to give up [s].
     int newton_iterations = 12;
-    bool statics_only = false;   ///< No motion at all: Newton's method on the static energy from the start.
 };
 
 /// Where a drape stands; kept in checkpoints.

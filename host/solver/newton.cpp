@@ -107,10 +107,7 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
         for_each_item(int(direction_.size()), [d = direction_.data()](int i) { d[i] = -d[i]; });
     if (contact_) {
         const std::vector<real> free_direction = direction_;
-        launch<limit_step_vertex>(state_.size.vertex_count,
-                                  limit_step_args{state_.pos.data(), state_.contact_normal.data(),
-                                                  state_.contact_offset.data(), direction_.data(),
-                                                  state_.size.vertex_stride});
+        keep_outside_bodies();
         if (dot3(state_, downhill_, direction_) <= 0) direction_ = free_direction;
     }
     return -dot3(state_, downhill_, direction_);
@@ -124,6 +121,26 @@ void Newton::place(double fraction)
         state_.pos[i] = base_[i] + fraction * direction_[i];
         state_.vel[i] = inverse_dt * (state_.pos[i] - start_[i]);
     });
+}
+
+void Newton::keep_outside_bodies()
+{
+    launch<limit_step_vertex>(state_.size.vertex_count,
+                              limit_step_args{state_.pos.data(), state_.contact_normal.data(),
+                                              state_.contact_offset.data(), direction_.data(),
+                                              state_.size.vertex_stride});
+}
+
+// Starts a step from where the cloth would fly on its own, if that is nearer to the minimum than where it is.
+void Newton::guess_step(const NewtonOptions& options)
+{
+    if (contact_) contact_->update(state_);
+    base_ = start_;
+    for_each_item(int(start_.size()), [this](int i) { direction_[i] = target_[i] - start_[i]; });
+    if (contact_) keep_outside_bodies();
+    const double at_rest = objective();
+    place(longest_fraction(options));
+    if (!(objective() < at_rest)) place(0);
 }
 
 double Newton::largest_move() const
@@ -198,8 +215,8 @@ NewtonReport Newton::step(double dt, const NewtonOptions& options)
     start_ = state_.pos;
     for_each_item(int(start_.size()),
                   [this, dt](int i) { target_[i] = start_[i] + dt * state_.vel[i]; });
-    // The step starts from rest: from there the first linear solve is that of D11.
     for_each_item(int(state_.vel.size()), [v = state_.vel.data()](int i) { v[i] = 0; });
+    guess_step(options);
     const NewtonReport report = iterate(options, false);
     settle_friction(state_, params_);
     return report;

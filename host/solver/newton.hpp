@@ -60,6 +60,8 @@ private:
     double largest_move() const;
     double longest_fraction(const NewtonOptions& options) const;
     void place(double fraction);
+    void keep_outside_bodies();
+    void guess_step(const NewtonOptions& options);
     NewtonReport iterate(const NewtonOptions& options, bool settle_each);
 
     State& state_;

@@ -22,6 +22,8 @@ public:
     /// Adds one call.
     void add(std::string_view name, double seconds, std::int64_t items, std::int64_t bytes);
     const std::vector<KernelRecord>& records() const { return records_; }
+    /// The records as a table, the dearest first.
+    std::string table() const;
 
     /// Runs `body` and records it; returns what it returns.
     template <class Body>
