@@ -83,8 +83,14 @@ void RunRecorder::open_phase(const std::string& name, const Topology& topology, 
         trajectory_.emplace(TrajectoryWriter::create(path, trajectory_layout(scene_, model_.model.cloth, topology)));
     if (keep_frames > 0) {
         last_frame_ = trajectory_->last_time();
-        next_frame_ = last_frame_ + 1 / scene_.solver.frame_rate;
+        next_frame_ = frame_time_after(last_frame_);
     }
+}
+
+double RunRecorder::frame_time_after(double time) const
+{
+    const double interval = 1 / scene_.solver.frame_rate;
+    return interval * (std::floor(time / interval + 1e-6) + 1);
 }
 
 void RunRecorder::close_phase()
@@ -126,7 +132,7 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
     iterations_since_frame_ = 0;
     relaxed_since_frame_ = false;
     last_frame_ = scalars.time;
-    next_frame_ = interval * (std::floor(scalars.time / interval + 1e-6) + 1);
+    next_frame_ = frame_time_after(scalars.time);
 }
 
 void RunRecorder::write_meshes(const std::vector<Vec3>& positions)

@@ -51,6 +51,7 @@ public:
                   const std::string& message);
 
 private:
+    double frame_time_after(double time) const;
     void write_meshes(const std::vector<Vec3>& positions);
     void draw(const std::vector<Vec3>& positions, const Topology& topology);
 
