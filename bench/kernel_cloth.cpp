@@ -7,6 +7,7 @@
 #include "host/collision/body_tessellation.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/garment/transfer.hpp"
+#include "host/solver/cloth_state.hpp"
 #include "host/solver/terms.hpp"
 
 namespace selvage {
@@ -32,7 +33,7 @@ Params all_strengths()
     Params params;
 #define STRENGTH(name, initial, unit, meaning) values.name = 1;
 #define PARAM(name, initial, unit, meaning)
-#define TERM(term, per, nature) { auto& values = params.term; term##_PARAMS(STRENGTH, PARAM) }
+#define TERM(term, per, nature, stage) { auto& values = params.term; term##_PARAMS(STRENGTH, PARAM) }
     TERMS(TERM)
 #undef TERM
 #undef PARAM
@@ -79,8 +80,7 @@ KernelCloth::KernelCloth(int vertex_count) : params(all_strengths())
     const FabricTable fabrics = one_fabric();
     std::vector<Vec3> positions, velocities;
     lay_on_dome(cloth, positions, velocities);
-    state = State(topology_sizes(topology, int(fabrics.size())), required_fields(params));
-    fill_state(state, topology, cloth, fabrics, positions, velocities);
+    state = make_state(topology, cloth, fabrics, params, positions, velocities);
 
     make_bodies();
     contact = std::make_unique<FabricContact>(*query, bodies, topology, cloth, fabrics, params.body_contact.gap,

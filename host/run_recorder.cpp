@@ -195,7 +195,7 @@ void RunRecorder::conclude(RunStatus status, Phase& phase, const RunPlan& plan, 
     for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
     s.residual = residual;
     s.energy.membrane = phase.newton().energy_of("membrane");
-    s.energy.bending = phase.newton().energy_of("bending");
+    s.energy.bending = phase.newton().bending_energy();
     s.energy.gravity = phase.newton().energy_of("gravity");
     s.energy.contact = phase.newton().energy_of("body_contact");
     s.energy.kinetic = phase.newton().kinetic_energy();

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "io/fabric_table.hpp"
 #include "io/number_text.hpp"
 #include "io/presets.hpp"
@@ -37,14 +39,33 @@ void require_number(double given, const TableReader& reader, const char* name)
 
 void check_number(double value, const InputPlace& fabric, const char* name, const char* unit, double low, double high)
 {
-    if (value >= low && value <= high) return;
+    if (std::isnan(value) || (value >= low && value <= high)) return;   // a property that may be automatic
     InputPlace place = fabric;
     place.key += (place.key.empty() ? "" : ".") + std::string(name);
     throw InputError(place, number_text(value), "a number from " + range_text(low, high, unit),
                      unit_slip(value, low, high, unit));
 }
 
+// Two stiffnesses and what couples them must resist every combination.
+void require_definite(const InputPlace& fabric, const std::string& kind, double weft, double warp, double coupling,
+                      const std::string& unit)
+{
+    const double limit = std::sqrt(weft * warp);
+    if (coupling == 0 || coupling < limit) return;
+    InputPlace place = fabric;
+    place.key += (place.key.empty() ? "" : ".") + kind + "_coupling";
+    throw InputError(place, number_text(coupling),
+                     fmt::format("less than sqrt({0}_weft * {0}_warp) = {1} {2}, or some strain would cost no energy",
+                                 kind, rounded_text(limit), unit));
+}
+
 }  // namespace
+
+double twist_rigidity(const Fabric& fabric)
+{
+    if (!std::isnan(fabric.bending_twist)) return fabric.bending_twist;
+    return 2 * (std::sqrt(fabric.bending_weft * fabric.bending_warp) - fabric.bending_coupling);
+}
 
 std::vector<std::string> fabric_preset_names()
 {
@@ -110,13 +131,8 @@ void check_fabric(const Fabric& fabric, const InputPlace& place)
     FABRIC_KEYS(CHECK_KEY, IGNORE_WORD)
 #undef CHECK_KEY
 #undef IGNORE_WORD
-    const double limit = std::sqrt(fabric.stretch_weft * fabric.stretch_warp);
-    if (fabric.stretch_coupling < limit) return;
-    InputPlace coupling = place;
-    coupling.key += (coupling.key.empty() ? "" : ".") + std::string("stretch_coupling");
-    throw InputError(coupling, number_text(fabric.stretch_coupling),
-                     "less than sqrt(stretch_weft * stretch_warp) = " + rounded_text(limit) +
-                         " N/m, or some strain would cost no energy");
+    require_definite(place, "stretch", fabric.stretch_weft, fabric.stretch_warp, fabric.stretch_coupling, "N/m");
+    require_definite(place, "bending", fabric.bending_weft, fabric.bending_warp, fabric.bending_coupling, "N m");
 }
 
 void check_fabric(const Fabric& fabric, const std::string& file, const std::string& key)

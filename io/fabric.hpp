@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,15 @@ struct Fabric {
     double shear = 40;                ///< Shear stiffness [N/m] per radian of shear angle.
     double bending_weft = 1e-5;       ///< Bending rigidity when bent along weft [N m], as KES-FB2 or ASTM D1388 measure it.
     double bending_warp = 1e-5;       ///< Bending rigidity when bent along warp [N m].
+    double bending_coupling = 0;      ///< Couples both curvatures [N m]; its square is below weft * warp.
+    double bending_twist = std::numeric_limits<double>::quiet_NaN();  ///< Moment per twist [N m]; NaN: see twist_rigidity.
     double friction = 0.3;            ///< Coulomb coefficient against a body [1].
     double damping = 0.5;             ///< Viscous drag per unit mass [1/s].
     std::string source;               ///< Where the values come from, as shown to the user.
 };
+
+/// Moment per twist d2z/dxdy [N m]: as given, or 2 (sqrt(weft warp) - coupling), which makes equal rigidities isotropic.
+double twist_rigidity(const Fabric& fabric);
 
 /// Returns the names of the built-in fabrics, sorted.
 std::vector<std::string> fabric_preset_names();

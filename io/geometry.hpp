@@ -9,6 +9,7 @@ namespace selvage {
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
+using Mat2 = Eigen::Matrix2d;
 using Mat3 = Eigen::Matrix3d;
 using Face = std::array<int, 3>;  ///< Vertex indices, counter-clockwise seen from outside.
 

@@ -4,7 +4,8 @@
 
 // Kinds of items: each has a count and a padded stride.
 #define ITEM_KINDS(KIND) \
-    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(material) KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot)
+    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(material) KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot) \
+    KIND(coupling)
 
 // Kinds whose items join several vertices, with the number of corners: their forces are gathered at vertices.
 #define ELEMENT_KINDS(KIND) KIND(face, 3) KIND(hinge, 4) KIND(stitch, 2)

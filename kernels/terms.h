@@ -1,6 +1,8 @@
 // The list of force terms. A new term adds its include and its TERM line here, and nothing elsewhere.
-//     TERM(name, item kind, nature)    conservative: the value is an energy [J];
-//                                      dissipative: it is a dissipation potential R(v) [W], force = -dR/dv
+//     TERM(name, item kind, nature, stage)
+//         nature  conservative: the value is an energy [J];
+//                 dissipative: it is a dissipation potential R(v) [W], force = -dR/dv
+//         stage   kernel that is launched over the term's items before each of its functions, or no_stage
 #pragma once
 #include "terms/bending.h"
 #include "terms/body_contact.h"
@@ -8,13 +10,15 @@
 #include "terms/friction.h"
 #include "terms/gravity.h"
 #include "terms/membrane.h"
+#include "terms/plate.h"
 #include "terms/seam.h"
 
-#define TERMS(TERM)                             \
-    TERM(gravity, vertex, conservative)         \
-    TERM(membrane, face, conservative)          \
-    TERM(bending, hinge, conservative)          \
-    TERM(seam, stitch, conservative)            \
-    TERM(damping, vertex, dissipative)          \
-    TERM(body_contact, vertex, conservative)    \
-    TERM(friction, vertex, conservative)
+#define TERMS(TERM)                                       \
+    TERM(gravity, vertex, conservative, no_stage)         \
+    TERM(membrane, face, conservative, no_stage)          \
+    TERM(bending, hinge, conservative, no_stage)          \
+    TERM(plate, hinge, conservative, plate_turns)         \
+    TERM(seam, stitch, conservative, no_stage)            \
+    TERM(damping, vertex, dissipative, no_stage)          \
+    TERM(body_contact, vertex, conservative, no_stage)    \
+    TERM(friction, vertex, conservative, no_stage)

@@ -5,6 +5,7 @@
 
 #include "host/solver/block_matrix.hpp"
 #include "host/solver/multigrid.hpp"
+#include "kernels/stages/couple_hinges.h"
 
 namespace selvage {
 namespace {
@@ -17,6 +18,10 @@ public:
         matrix_.row_begin = pattern_.row_begin;
         matrix_.column = pattern_.column;
         matrix_.block.resize(9 * pattern_.column.size());
+        if (!state.hinge_slope.empty()) {
+            turn_.resize(std::size_t(state.size.hinge_count));
+            moment_.resize(turn_.size());
+        }
         for (LinearVector* v : {&x_, &r_, &z_, &p_, &q_}) v->resize(3 * std::size_t(pattern_.rows()));
         if (options.preconditioner != Preconditioner::multigrid || transfers.empty()) return;
         std::vector<char> pinned(pattern_.rows());
@@ -43,6 +48,7 @@ public:
                 if (kind.stiffness) assemble_elements(row, &args, &kind);
             assemble_finish(row, &args);
         });
+        state_ = &state;
         if (multigrid_)
             multigrid_->build(matrix_);
         else
@@ -72,7 +78,7 @@ public:
 
     std::size_t bytes() const override
     {
-        return matrix_.bytes() + jacobi_.bytes() + 5 * x_.size() * sizeof(linear) +
+        return matrix_.bytes() + jacobi_.bytes() + (5 * x_.size() + 2 * turn_.size()) * sizeof(linear) +
                (multigrid_ ? multigrid_->bytes() : 0) +
                (pattern_.face_place.size() + pattern_.hinge_place.size()) * sizeof(std::uint16_t);
     }
@@ -80,7 +86,7 @@ public:
     void run(LinearOperation operation) override
     {
         switch (operation) {
-        case LinearOperation::product: matrix_.multiply(p_, q_); break;
+        case LinearOperation::product: multiply(p_, q_); break;
         case LinearOperation::precondition: precondition(); break;
         case LinearOperation::dot: dot(r_, z_); break;
         case LinearOperation::update: advance(linear(1e-12)); break;
@@ -88,6 +94,21 @@ public:
     }
 
 private:
+    // y = A x: the assembled matrix, and what of the plate's stiffness does not stand in it.
+    void multiply(const LinearVector& x, LinearVector& y)
+    {
+        matrix_.multiply(x, y);
+        if (turn_.empty()) return;
+        const State& s = *state_;
+        const couple_args args{s.hinge_vertex.data(), s.hinge_slope.data(), s.hinge_rigidity.data(),
+                               s.coupling_slots.data(), s.coupling_hinge.data(), s.coupling_rigidity.data(),
+                               s.hinge_slots.data(), s.hinge_slot.data(), x.data(), turn_.data(), moment_.data(),
+                               y.data(), s.size.hinge_stride, s.size.vertex_stride};
+        launch<couple_turn>(s.size.hinge_count, args);
+        launch<couple_moment>(s.size.hinge_count, args);
+        launch<couple_gather>(s.size.vertex_count, args);
+    }
+
     void precondition()
     {
         if (multigrid_)
@@ -113,7 +134,7 @@ private:
         p_ = z_;
         double rz = dot(r_, z_);
         while (result.iterations < options_.max_iterations) {
-            matrix_.multiply(p_, q_);
+            multiply(p_, q_);
             const double curvature = dot(p_, q_);
             if (!(curvature > 0) || !(rz > 0)) {
                 result.negative_curvature = true;
@@ -138,7 +159,9 @@ private:
     BlockMatrix matrix_;
     BlockJacobi jacobi_;
     std::optional<Multigrid> multigrid_;
+    const State* state_ = nullptr;   // of the last assembly
     LinearVector x_, r_, z_, p_, q_;
+    LinearVector turn_, moment_;     // per hinge; empty without a plate
 };
 
 }  // namespace

@@ -45,6 +45,7 @@ class LinearSolver {
 public:
     virtual ~LinearSolver() = default;
     /// Gathers the stiffness slots of the state; adds inertia * mass to the diagonal. @param inertia 1/dt^2 [1/s^2]
+    /// A plate's hinge slopes and couplings stay in the state, which must outlive the solves that follow.
     virtual void assemble(const State& state, double inertia) = 0;
     /// Solves A x = b to |b - A x| <= tolerance |b|.
     /// @param b  three planes of state.size.vertex_stride; pinned vertices must hold 0

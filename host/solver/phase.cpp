@@ -1,5 +1,7 @@
 #include "host/solver/phase.hpp"
 
+#include "host/solver/cloth_state.hpp"
+
 namespace selvage {
 namespace {
 
@@ -20,9 +22,8 @@ ParticleTransfers particle_transfers(const ClothModel& model, const Topology& fi
 Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
              const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
     : options_(options), topology_(make_topology(model.cloth, options.joined)),
-      state_(topology_sizes(topology_, int(model.fabrics.size())), required_fields(options.params))
+      state_(make_state(topology_, model.cloth, model.fabrics, options.params, positions, velocities))
 {
-    fill_state(state_, topology_, model.cloth, model.fabrics, positions, velocities);
     const bool multigrid = options.linear.preconditioner == Preconditioner::multigrid;
     const ParticleTransfers transfers =
         multigrid ? particle_transfers(model, topology_, options.joined) : ParticleTransfers{};

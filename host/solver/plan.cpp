@@ -8,6 +8,9 @@
 namespace selvage {
 namespace {
 
+// Entries of the plate's matrix per hinge on irregular meshes, where it is fullest.
+constexpr int couplings_per_hinge = 28;
+
 bool any_fabric(const SceneModel& model, double Fabric::*property)
 {
     return std::any_of(model.model.fabrics.begin(), model.model.fabrics.end(),
@@ -41,10 +44,12 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
     }
     params.membrane.scale = scene.membrane.model == "none" ? 0 : scene.membrane.scale;
     const bool bends = any_fabric(model, &Fabric::bending_weft) || any_fabric(model, &Fabric::bending_warp);
-    params.bending.scale = scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
+    params.bending.scale = scene.bending.model == "hinge" && bends ? scene.bending.scale : 0;
+    params.plate.scale = scene.bending.model == "plate" && bends ? scene.bending.scale : 0;
     params.damping.scale = any_fabric(model, &Fabric::damping) ? 1 : 0;
     if (sewing) {
         params.bending.scale *= scene.seams.stiffening;
+        params.plate.scale *= scene.seams.stiffening;
         // A stitch stands for one edge length of seam, so that sewing does not depend on the resolution.
         params.seam.stiffness = scene.seams.stiffness * model.edge_length;
         params.seam.force_limit = scene.seams.force_limit * model.edge_length;
@@ -75,8 +80,10 @@ PhasePlan plan_phase(const Scene& scene, const SceneModel& model, bool sewing)
     phase.params = phase_params(scene, model, sewing);
     phase.joined = !sewing;
     phase.queries_bodies = phase.params.body_contact.stiffness > 0;
-    const mesh_sizes size =
-        topology_sizes(make_topology(model.model.cloth, phase.joined), int(model.model.fabrics.size()));
+    const Topology topology = make_topology(model.model.cloth, phase.joined);
+    const bool plate = phase.params.plate.scale > 0;
+    const mesh_sizes size = topology_sizes(topology, int(model.model.fabrics.size()),
+                                           plate ? couplings_per_hinge * int(topology.hinges.size()) : 0);
     for (const Term& term : all_terms())
         if (term.is_active(phase.params))
             phase.launches.push_back({std::string(term.name), std::string(kind_name(term.per)), term.item_count(size),
@@ -92,7 +99,8 @@ std::string absence(const Scene& scene, const SceneModel& model, std::string_vie
     const bool bodies = !model.model.bodies.empty();
     if (term == "gravity") return "solver.gravity is zero";
     if (term == "membrane") return "membrane.model is none or its scale is zero";
-    if (term == "bending") return "bending.model is none, or no fabric has a bending rigidity";
+    if (term == "bending") return "bending.model is not hinge, or no fabric has a bending rigidity";
+    if (term == "plate") return "bending.model is not plate, or no fabric has a bending rigidity";
     if (term == "seam") return "there are no seams";
     if (term == "damping") return "no fabric has damping";
     if (!bodies) return "there are no bodies";

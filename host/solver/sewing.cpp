@@ -51,7 +51,7 @@ void pull_harder_if_stuck(Phase& phase, const SewingOptions& options, SewingProg
 
 void note_step(Phase& phase, SewingProgress& progress)
 {
-    const double energy = phase.newton().energy_of("membrane") + phase.newton().energy_of("bending");
+    const double energy = phase.newton().energy_of("membrane") + phase.newton().bending_energy();
     progress.gap = largest_gap(phase);
     progress.energy_change = std::abs(energy - progress.elastic_energy) / std::max(energy, 1e-12);
     progress.elastic_energy = energy;
@@ -85,6 +85,7 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
 {
     const Params worn = phase.params();
     phase.params().bending.scale *= press_bending;
+    phase.params().plate.scale *= press_bending;
     phase.params().friction.scale = 0;
     phase.params().gravity = {};
     StepControl control(phase, step);

@@ -16,30 +16,29 @@ FieldSet set_of(std::initializer_list<Field> fields)
     return set;
 }
 
-// A const state binds its accumulators to null: an energy function cannot write.
-template <class T> T* writable(std::vector<T>& field) { return field.data(); }
-template <class T> T* writable(const std::vector<T>&) { return nullptr; }
+constexpr std::nullptr_t no_stage = nullptr;
 
 // One traits struct per line of kernels/terms.h. The macros below only list and bind; the logic is in templates.
 #define LIST_FIELD(name) Field::name,
 #define SET_READ(name) a.name = state.name.data();
-#define SET_ADD(name) a.name = writable(state.name);
+#define SET_ADD(name) a.name = state.name.data();
 #define SET_PARAM(name, initial, unit, meaning) a.name = values.name;
 #define OR_NON_ZERO(name, initial, unit, meaning) || values.name != 0
 #define IGNORE(name, initial, unit, meaning)
-#define TERM(term, kind, nature_of_term)                                                                    \
+#define TERM(term, kind, nature_of_term, stage_before)                                                                    \
     struct term##_traits {                                                                                  \
         static constexpr std::string_view name = #term;                                                     \
         static constexpr ItemKind per = ItemKind::kind;                                                     \
         static constexpr Nature nature = Nature::nature_of_term;                                            \
         static FieldSet fields() { return set_of({term##_FIELDS(LIST_FIELD, LIST_FIELD)}); }                \
+        static constexpr auto stage = stage_before;                                                         \
         static constexpr auto force = term##_force;                                                         \
         static constexpr auto stiffness = term##_stiffness;                                                 \
         static constexpr auto energy = term##_energy;                                                       \
         static int count(const mesh_sizes& size) { return size.kind##_count; }                              \
         static const auto& values(const Params& params) { return params.term; }                             \
         static bool any_strength(const auto& values) { return false term##_PARAMS(OR_NON_ZERO, IGNORE); }   \
-        static void bind(term##_args& a, auto& state, const auto& values)                                   \
+        static void bind(term##_args& a, State& state, const auto& values)                                   \
         {                                                                                                   \
             a.size = state.size;                                                                            \
             term##_FIELDS(SET_READ, SET_ADD) term##_PARAMS(SET_PARAM, SET_PARAM)                            \
@@ -50,7 +49,7 @@ TERMS(TERM)
 #undef TERM
 
 template <class Traits>
-typename Traits::Args bound(auto& state, const Params& params, bool projected = false)
+typename Traits::Args bound(State& state, const Params& params, bool projected = false)
 {
     typename Traits::Args args;
     args.mode.projected = projected;
@@ -67,6 +66,13 @@ int bytes_of_own_kind(const FieldSet& fields, std::string_view kind)
 }
 
 template <class Traits>
+void run_stage(State& state, const Params& params)
+{
+    if constexpr (!std::is_null_pointer_v<decltype(Traits::stage)>)
+        launch<Traits::stage>(Traits::count(state.size), bound<Traits>(state, params));
+}
+
+template <class Traits>
 Term describe()
 {
     const FieldSet fields = Traits::fields();
@@ -79,14 +85,17 @@ Term describe()
             .item_count = Traits::count,
             .add_force =
                 [](State& state, const Params& params) {
+                    run_stage<Traits>(state, params);
                     launch<Traits::force>(Traits::count(state.size), bound<Traits>(state, params));
                 },
             .add_stiffness =
                 [](State& state, const Params& params, bool projected) {
+                    run_stage<Traits>(state, params);
                     launch<Traits::stiffness>(Traits::count(state.size), bound<Traits>(state, params, projected));
                 },
             .energy =
-                [](const State& state, const Params& params) {
+                [](State& state, const Params& params) {
+                    run_stage<Traits>(state, params);
                     return launch_sum<Traits::energy>(Traits::count(state.size), bound<Traits>(state, params));
                 }};
 }
@@ -101,7 +110,7 @@ Term describe()
 
 std::span<const Term> all_terms()
 {
-#define TERM(term, per, nature) describe<term##_traits>(),
+#define TERM(term, per, nature, stage) describe<term##_traits>(),
     static const Term terms[] = {TERMS(TERM)};
 #undef TERM
     return terms;

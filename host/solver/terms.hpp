@@ -21,7 +21,7 @@ struct Term {
     int (*item_count)(const mesh_sizes&);
     void (*add_force)(State&, const Params&);           ///< Adds -dE/dx, or -dR/dv, to its items' forces [N].
     void (*add_stiffness)(State&, const Params&, bool projected);  ///< Adds d2E/dx2 [N/m], or d2R/dv2 [kg/s].
-    double (*energy)(const State&, const Params&);      ///< Returns E [J], or R [W] of a dissipative term.
+    double (*energy)(State&, const Params&);            ///< Returns E [J], or R [W] of a dissipative term.
 };
 
 /// Returns all terms, in the order of kernels/terms.h.

@@ -212,7 +212,7 @@ Topology make_topology(const Cloth& cloth, bool joined)
     return topology;
 }
 
-mesh_sizes topology_sizes(const Topology& topology, int material_count)
+mesh_sizes topology_sizes(const Topology& topology, int material_count, int coupling_count)
 {
     mesh_sizes size{};
     size.vertex_count = topology.particle_count;
@@ -223,6 +223,7 @@ mesh_sizes topology_sizes(const Topology& topology, int material_count)
     size.face_slot_count = 3 * size.face_count;
     size.hinge_slot_count = 4 * size.hinge_count;
     size.stitch_slot_count = 2 * size.stitch_count;
+    size.coupling_count = coupling_count;
 #define STRIDE(kind) size.kind##_stride = padded_stride(size.kind##_count);
     ITEM_KINDS(STRIDE)
 #undef STRIDE

@@ -27,7 +27,8 @@ struct Topology {
 Topology make_topology(const Cloth& cloth, bool joined);
 
 /// Counts and padded strides of every kind of item.
-mesh_sizes topology_sizes(const Topology& topology, int material_count);
+/// @param coupling_count  entries of the plate's matrix; 0 without one
+mesh_sizes topology_sizes(const Topology& topology, int material_count, int coupling_count = 0);
 
 /// Fabrics in the order of the state's material table.
 using FabricTable = std::map<std::string, Fabric>;

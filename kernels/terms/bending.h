@@ -2,13 +2,12 @@
 //     c = D |e|^2 / (A1 + A2)                                       (rest lengths and areas; stored per hinge)
 //     M = 2 c (sin(theta/2) - sin(theta0/2))  [N m]                 f_i = -M dtheta/dx_i  [N]
 //     E = c (4 (cos(theta0/2) - cos(theta/2)) - 2 (theta - theta0) sin(theta0/2))  [J]
-//     dtheta/dx2 = -|e| n1 / |n1|^2,   n1 = e x (x2 - x0);   likewise for x3 with n2 = (x3 - x0) x e
 // For small angles E = c/2 (theta - theta0)^2. The source's stiffness is k_e = 4 D.
-// Source: Bridson, Marino and Fedkiw 2003, section 4, as restated in D7; second derivatives of theta by
-// differentiating the mode vectors. The rigidity shown by a mesh of hinges depends on the mesh (0.75 to 3 times D).
+// Source: Bridson, Marino and Fedkiw 2003, section 4, as restated in D7. The rigidity shown by a mesh of hinges
+// depends on the mesh (0.75 to 3 times D); plate.h does not have that fault.
 // The projected stiffness drops M d2theta/dx2; what is left, c cos(theta/2) times a square, is never negative.
 #pragma once
-#include "../term_args.h"
+#include "../hinge.h"
 
 #define bending_PARAMS(STRENGTH, PARAM) STRENGTH(scale, 0.0, "1", "multiplies every bending rigidity")
 #define bending_FIELDS(READ, ADD)                                                                   \
@@ -16,47 +15,9 @@
     ADD(hinge_stiffness)
 TERM_ARGS(bending)
 
-typedef struct {
-    vec3 e, p, q;               // x1 - x0, x2 - x0, x3 - x0
-    vec3 n1, n2;                // face normals, twice the area long
-    real inv_n1, inv_n2;        // 1/|n1|^2, 1/|n2|^2
-    real length;                // |e|
-    real b2, b3;                // where x2 and x3 stand along the edge, 0 at x0, 1 at x1
-    real sine, cosine;          // of theta/2
-    vec3 g[4];                  // dtheta/dx_i
-} hinge_state;
-
-KERNEL_FN hinge_state bending_hinge(int hinge, const bending_args* a)
-{
-    int hs = a->size.hinge_stride, vs = a->size.vertex_stride;
-    hinge_state h;
-    vec3 x0 = load3(a->pos, vs, a->hinge_vertex[hinge]);
-    h.e = load3(a->pos, vs, a->hinge_vertex[hs + hinge]) - x0;
-    h.p = load3(a->pos, vs, a->hinge_vertex[2 * hs + hinge]) - x0;
-    h.q = load3(a->pos, vs, a->hinge_vertex[3 * hs + hinge]) - x0;
-    h.n1 = cross(h.e, h.p);
-    h.n2 = cross(h.q, h.e);
-    // A face squeezed to nothing gives no direction: the floor keeps its forces finite until it opens again.
-    real e2 = fmax(dot(h.e, h.e), REAL(1e-18));
-    h.length = sqrt(e2);
-    h.inv_n1 = REAL(1) / fmax(dot(h.n1, h.n1), REAL(1e-6) * e2 * e2);
-    h.inv_n2 = REAL(1) / fmax(dot(h.n2, h.n2), REAL(1e-6) * e2 * e2);
-    h.b2 = dot(h.p, h.e) / e2;
-    h.b3 = dot(h.q, h.e) / e2;
-    vec3 u1 = sqrt(h.inv_n1) * h.n1, u2 = sqrt(h.inv_n2) * h.n2;
-    real sine = REAL(0.5) * length(u1 - u2);
-    h.sine = dot(cross(u1, u2), h.e) < REAL(0) ? -sine : sine;
-    h.cosine = REAL(0.5) * length(u1 + u2);
-    h.g[2] = (-h.length * h.inv_n1) * h.n1;
-    h.g[3] = (-h.length * h.inv_n2) * h.n2;
-    h.g[0] = (h.b2 - REAL(1)) * h.g[2] + (h.b3 - REAL(1)) * h.g[3];
-    h.g[1] = (-h.b2) * h.g[2] + (-h.b3) * h.g[3];
-    return h;
-}
-
 KERNEL_FN real bending_energy(int hinge, const bending_args* a)
 {
-    hinge_state h = bending_hinge(hinge, a);
+    hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
     real s0 = a->hinge_rest_sine[hinge], c0 = sqrt(REAL(1) - s0 * s0);
     if (s0 == REAL(0))   // 1 - cos without cancellation at small angles
         return REAL(4) * a->scale * a->hinge_rigidity[hinge] * h.sine * h.sine / (REAL(1) + h.cosine);
@@ -67,55 +28,19 @@ KERNEL_FN real bending_energy(int hinge, const bending_args* a)
 KERNEL_FN void bending_force(int hinge, const bending_args* a)
 {
     int hs = a->size.hinge_stride;
-    hinge_state h = bending_hinge(hinge, a);
+    hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
     real moment = REAL(2) * a->scale * a->hinge_rigidity[hinge] * (h.sine - a->hinge_rest_sine[hinge]);
     for (int i = 0; i < 4; ++i) add3(a->hinge_force + 3 * i * hs, hs, hinge, (-moment) * h.g[i]);
-}
-
-KERNEL_FN mat3 bending_cross_matrix(vec3 v)
-{
-    mat3 m;
-    m.row0 = make_vec3(0, -v.z, v.y);
-    m.row1 = make_vec3(v.z, 0, -v.x);
-    m.row2 = make_vec3(-v.y, v.x, 0);
-    return m;
-}
-
-// (I - 2 n n^T / |n|^2) [v]x / |n|^2 times s: how n/|n|^2 turns when n changes by v x dx.
-KERNEL_FN mat3 bending_turn(real s, vec3 n, real inv_n, vec3 v)
-{
-    return mat3_add(mat3_scale(s * inv_n, bending_cross_matrix(v)),
-                    outer3(REAL(-2) * s * inv_n * inv_n, n, cross(n, v)));
-}
-
-// Second derivatives of theta: blocks t[i][j] = d2theta/dx_i dx_j for i < j. Translation invariance gives x0's.
-KERNEL_FN void bending_angle_hessian(const hinge_state* h, mat3 t[4][4])
-{
-    vec3 unit = (REAL(1) / h->length) * h->e;
-    real inv_e2 = REAL(1) / (h->length * h->length);
-    mat3 t21 = mat3_add(outer3(-h->inv_n1, h->n1, unit), bending_turn(h->length, h->n1, h->inv_n1, h->p));
-    mat3 t31 = mat3_add(outer3(-h->inv_n2, h->n2, unit), bending_turn(-h->length, h->n2, h->inv_n2, h->q));
-    vec3 db2 = inv_e2 * (h->p - (REAL(2) * h->b2) * h->e), db3 = inv_e2 * (h->q - (REAL(2) * h->b3) * h->e);
-    mat3 t11 = mat3_add(mat3_add(outer3(REAL(-1), h->g[2], db2), mat3_scale(-h->b2, t21)),
-                        mat3_add(outer3(REAL(-1), h->g[3], db3), mat3_scale(-h->b3, t31)));
-    mat3 t22 = bending_turn(-h->length, h->n1, h->inv_n1, h->e);
-    mat3 t33 = bending_turn(h->length, h->n2, h->inv_n2, h->e);
-    t[1][2] = mat3_transpose(t21);
-    t[1][3] = mat3_transpose(t31);
-    t[2][3] = outer3(REAL(0), unit, unit);
-    t[0][1] = mat3_scale(REAL(-1), mat3_transpose(mat3_add(t11, mat3_add(t[1][2], t[1][3]))));
-    t[0][2] = mat3_scale(REAL(-1), mat3_add(t[1][2], t22));
-    t[0][3] = mat3_scale(REAL(-1), mat3_add(t[1][3], t33));
 }
 
 KERNEL_FN void bending_stiffness(int hinge, const bending_args* a)
 {
     int hs = a->size.hinge_stride;
-    hinge_state h = bending_hinge(hinge, a);
+    hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
     real c = a->scale * a->hinge_rigidity[hinge];
     real moment = REAL(2) * c * (h.sine - a->hinge_rest_sine[hinge]);
     mat3 t[4][4];
-    if (!a->mode.projected) bending_angle_hessian(&h, t);
+    if (!a->mode.projected) hinge_angle_hessian(&h, t);
     for (int i = 0; i < 4; ++i)
         for (int j = i + 1; j < 4; ++j) {
             mat3 k = outer3(c * h.cosine, h.g[i], h.g[j]);

@@ -2,6 +2,7 @@
 #include <random>
 #include <vector>
 
+#include "host/solver/cloth_state.hpp"
 #include "host/solver/terms.hpp"
 #include "host/solver/topology.hpp"
 
@@ -13,7 +14,7 @@ inline Params unit_strengths()
     Params params;
 #define STRENGTH(name, initial, unit, meaning) values.name = 1;
 #define PARAM(name, initial, unit, meaning)
-#define TERM(term, per, nature) { auto& values = params.term; term##_PARAMS(STRENGTH, PARAM) }
+#define TERM(term, per, nature, stage) { auto& values = params.term; term##_PARAMS(STRENGTH, PARAM) }
     TERMS(TERM)
 #undef TERM
 #undef PARAM
@@ -74,8 +75,7 @@ inline State crumpled_state(const Params& params, unsigned seed = 7)
     Cloth cloth = grid_cloth(4, 4);
     cloth.seam_pairs = {{0, 15}, {1, 2}};
     const Topology topology = make_topology(cloth, false);
-    State state(topology_sizes(topology, 1), required_fields(params));
-    fill_state(state, topology, cloth, test_fabrics(), cloth.positions, {});
+    State state = make_state(topology, cloth, test_fabrics(), params, cloth.positions, {});
     std::mt19937 random(seed);
     std::uniform_real_distribution<real> uniform(-1, 1);
     const int vs = state.size.vertex_stride;

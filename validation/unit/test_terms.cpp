@@ -25,6 +25,21 @@ void rotate_and_shift(State& state)
     }
 }
 
+// What a plate keeps out of its slots: J^T (G - W) J.
+void add_couplings(const State& state, Eigen::MatrixXd& dense)
+{
+    const int hinges = state.size.hinge_count, hs = state.size.hinge_stride;
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(hinges, dense.cols());
+    Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(hinges, hinges);
+    for (int h = 0; h < hinges; ++h) {
+        for (int c = 0; c < 12; ++c) slopes(h, 3 * state.hinge_vertex[c / 3 * hs + h] + c % 3) += state.hinge_slope[12 * h + c];
+        for (int k = state.coupling_slots[h]; k < state.coupling_slots[hs + h]; ++k)
+            rest(h, state.coupling_hinge[k]) = state.coupling_rigidity[k];
+        rest(h, h) -= state.hinge_rigidity[h];
+    }
+    dense += slopes.transpose() * rest * slopes;
+}
+
 // The assembled stiffness of one term as a dense matrix over the active degrees of freedom, from its columns.
 Eigen::MatrixXd dense_stiffness(const Term& term, State& state, const Params& params, bool projected)
 {
@@ -52,6 +67,7 @@ Eigen::MatrixXd dense_stiffness(const Term& term, State& state, const Params& pa
     add_elements(corners, state.size.kind##_count, state.size.kind##_stride, state.kind##_vertex, state.kind##_stiffness);
     ELEMENT_KINDS(ADD)
 #undef ADD
+    if (term.fields[std::size_t(Field::hinge_slope)]) add_couplings(state, dense);
     return dense;
 }
 
@@ -173,11 +189,10 @@ TEST_CASE("linear solvers of both precisions and preconditioners agree with a de
 {
     Params params;
     params.membrane.scale = 1;
-    params.bending.scale = 1;
+    params.plate.scale = 1;
     const Cloth cloth = grid_cloth(9, 9), half = grid_cloth(5, 5, 0.2);
     const Topology fine = make_topology(cloth, false), coarse = make_topology(half, false);
-    State state(topology_sizes(fine, 1), required_fields(params));
-    fill_state(state, fine, cloth, test_fabrics(), cloth.positions, {});
+    State state = make_state(fine, cloth, test_fabrics(), params, cloth.positions, {});
     Transfer transfer{{0}, {}, {}};
     for (int r = 0; r < 9; ++r)
         for (int c = 0; c < 9; ++c) {

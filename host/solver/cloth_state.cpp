@@ -1,0 +1,20 @@
+#include "host/solver/cloth_state.hpp"
+
+#include "host/solver/plate.hpp"
+#include "host/solver/terms.hpp"
+
+namespace selvage {
+
+State make_state(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics, const Params& params,
+                 const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
+{
+    const FieldSet fields = required_fields(params);
+    const bool plated = fields[std::size_t(Field::coupling_rigidity)];
+    const PlateMatrix plate = plated ? make_plate(topology, cloth, fabrics) : PlateMatrix{};
+    State state(topology_sizes(topology, int(fabrics.size()), plate.entries()), fields);
+    fill_state(state, topology, cloth, fabrics, positions, velocities);
+    if (plated) fill_plate(state, plate);
+    return state;
+}
+
+}  // namespace selvage
