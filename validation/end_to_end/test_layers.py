@@ -13,7 +13,7 @@ PLACES = {
     r"^(tbb|oneapi)/": ["host", "bench", "validation"],
     r"^embree": ["host/collision", "host/render"],
     r"^(hdf5|H5)": ["io", "validation/unit/test_trajectory.cpp"],
-    r"^opencv": ["io/image.cpp"],
+    r"^opencv": ["io/image.cpp", "io/chart.cpp"],
     r"^(Eigen|unsupported)/": ["io", "host", "bench", "validation"],
     r"^toml\+\+/": ["io"],
     r"^CLI/": ["host/main.cpp", "host/commands"],

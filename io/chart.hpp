@@ -1,0 +1,52 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "io/image.hpp"
+
+namespace selvage {
+
+/// One line of a chart.
+struct ChartSeries {
+    std::string name;
+    std::vector<double> x, y;   ///< Positive and finite; same length; drawn in this order.
+};
+
+/// A chart with two logarithmic axes and a legend at its right.
+struct LogChart {
+    std::string title, x_label, y_label;
+    std::vector<ChartSeries> series;   ///< Those of one name share colour and marker in every chart.
+    double guide_y = 0;                ///< Value of a dashed horizontal line; 0: none.
+    std::string guide_label;
+};
+
+/// Draws a chart; colours and markers follow the order of `names`, so that several charts can be read together.
+/// @param names  of all series that may appear
+Image draw_log_chart(const LogChart& chart, const std::vector<std::string>& names, int width, int height);
+
+/// A table of coloured cells.
+struct CellMap {
+    std::string title, column_label, row_label;
+    std::vector<std::string> columns, rows;
+    std::vector<int> kind;             ///< Per row and column: index into the kinds.
+};
+
+/// What a kind of cells means and its colour.
+struct CellKind {
+    std::string name;
+    Rgb colour;
+};
+
+/// Draws a table of cells with its labels.
+Image draw_cell_map(const CellMap& map, const std::vector<CellKind>& kinds, int width, int height);
+
+/// Draws a line of coloured boxes with their meanings.
+Image draw_cell_legend(const std::vector<CellKind>& kinds, int width);
+
+/// Puts pictures of one size side by side, row by row, on white.
+Image tile(const std::vector<Image>& pictures, int columns);
+
+/// Puts one picture above another, on white.
+Image stack(const Image& above, const Image& below);
+
+}  // namespace selvage
