@@ -4,6 +4,7 @@
 #pragma once
 #include "terms/bending.h"
 #include "terms/body_contact.h"
+#include "terms/curved_membrane.h"
 #include "terms/damping.h"
 #include "terms/friction.h"
 #include "terms/gravity.h"
@@ -13,6 +14,7 @@
 #define TERMS(TERM)                             \
     TERM(gravity, vertex, conservative)         \
     TERM(membrane, face, conservative)          \
+    TERM(curved_membrane, face, conservative)   \
     TERM(bending, hinge, conservative)          \
     TERM(seam, stitch, conservative)            \
     TERM(damping, vertex, dissipative)          \

@@ -14,6 +14,12 @@ bool any_fabric(const SceneModel& model, double Fabric::*property)
                        [&](const auto& entry) { return entry.second.*property > 0; });
 }
 
+bool any_curve(const SceneModel& model)
+{
+    return std::any_of(model.model.fabrics.begin(), model.model.fabrics.end(),
+                       [](const auto& entry) { return has_curves(entry.second); });
+}
+
 double contact_stiffness(const Scene& scene, const SceneModel& model)
 {
     if (!std::isnan(scene.contact.stiffness)) return scene.contact.stiffness;
@@ -39,7 +45,8 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
         params.gravity.acceleration_y = scene.solver.gravity.y();
         params.gravity.acceleration_z = scene.solver.gravity.z();
     }
-    params.membrane.scale = scene.membrane.model == "none" ? 0 : scene.membrane.scale;
+    const double membrane = scene.membrane.model == "none" ? 0 : scene.membrane.scale;
+    (any_curve(model) ? params.curved_membrane.scale : params.membrane.scale) = membrane;
     const bool bends = any_fabric(model, &Fabric::bending_weft) || any_fabric(model, &Fabric::bending_warp);
     params.bending.scale = scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
     params.damping.scale = any_fabric(model, &Fabric::damping) ? 1 : 0;
@@ -91,7 +98,10 @@ std::string absence(const Scene& scene, const SceneModel& model, std::string_vie
 {
     const bool bodies = !model.model.bodies.empty();
     if (term == "gravity") return "solver.gravity is zero";
-    if (term == "membrane") return "membrane.model is none or its scale is zero";
+    const bool membrane = scene.membrane.model != "none" && scene.membrane.scale > 0;
+    if (term == "membrane" && membrane) return "a fabric has a stress curve or limit: curved_membrane is in its place";
+    if (term == "curved_membrane" && membrane) return "no fabric has a stress curve or limit";
+    if (term == "membrane" || term == "curved_membrane") return "membrane.model is none or its scale is zero";
     if (term == "bending") return "bending.model is none, or no fabric has a bending rigidity";
     if (term == "seam") return "there are no seams";
     if (term == "damping") return "no fabric has damping";

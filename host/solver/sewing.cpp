@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/solver/elastic_energy.hpp"
 #include "host/solver/launch.hpp"
 
 namespace selvage {
@@ -51,7 +52,7 @@ void pull_harder_if_stuck(Phase& phase, const SewingOptions& options, SewingProg
 
 void note_step(Phase& phase, SewingProgress& progress)
 {
-    const double energy = phase.newton().energy_of("membrane") + phase.newton().energy_of("bending");
+    const double energy = in_plane_energy(phase.newton()) + phase.newton().energy_of("bending");
     progress.gap = largest_gap(phase);
     progress.energy_change = std::abs(energy - progress.elastic_energy) / std::max(energy, 1e-12);
     progress.elastic_energy = energy;

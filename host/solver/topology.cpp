@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "host/solver/launch.hpp"
+#include "host/solver/materials.hpp"
 
 namespace selvage {
 namespace {
@@ -114,20 +115,6 @@ PanelFabrics panel_fabrics(const Cloth& cloth, const FabricTable& fabrics)
         table.material.push_back(int(std::distance(fabrics.begin(), it)));
     }
     return table;
-}
-
-void fill_materials(State& state, const FabricTable& fabrics)
-{
-    if (state.material_stretch.empty()) return;
-    const int stride = state.size.material_stride;
-    int row = 0;
-    for (const auto& [name, fabric] : fabrics) {
-        state.material_stretch[row] = fabric.stretch_weft;
-        state.material_stretch[stride + row] = fabric.stretch_warp;
-        state.material_stretch[2 * stride + row] = fabric.stretch_coupling;
-        state.material_stretch[3 * stride + row] = fabric.shear;
-        ++row;
-    }
 }
 
 void fill_faces(State& state, const Topology& topology, const Cloth& cloth, const PanelFabrics& fabrics)

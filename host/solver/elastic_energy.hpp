@@ -1,0 +1,12 @@
+#pragma once
+#include "host/solver/newton.hpp"
+
+namespace selvage {
+
+/// Energy of whichever in-plane model the phase runs [J].
+inline double in_plane_energy(const Newton& newton)
+{
+    return newton.energy_of("membrane") + newton.energy_of("curved_membrane");
+}
+
+}  // namespace selvage
