@@ -99,11 +99,11 @@
     KEY(bool, body, true, "1", 0, 1, "contact between cloth and bodies")
 
 #define MEMBRANE_KEYS(KEY, WORD, VEC3)                                                                           \
-    WORD(model, "orthotropic", "orthotropic|none", "in-plane model of the cloth")                                \
+    WORD(model, "orthotropic", "orthotropic|springs|none", "in-plane model of the cloth; springs follow stretch and shear at small strain, coupling becomes the shear stiffness") \
     KEY(double, scale, 1, "1", 0, 1e6, "multiplies every membrane stiffness")
 
 #define BENDING_KEYS(KEY, WORD, VEC3)                                                                            \
-    WORD(model, "hinge", "hinge|none", "bending model of the cloth")                                             \
+    WORD(model, "automatic", "automatic|hinge|springs|none", "bending model of the cloth; automatic: springs if the membrane is of springs, else hinge; springs match the fabric at a curvature of 50/m only") \
     KEY(double, scale, 1, "1", 0, 1e6, "multiplies every bending rigidity")
 
 #define SEAMS_KEYS(KEY, WORD, VEC3)                                                                              \

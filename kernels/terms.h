@@ -10,11 +10,13 @@
 #include "terms/gravity.h"
 #include "terms/membrane.h"
 #include "terms/seam.h"
+#include "terms/spring.h"
 
 #define TERMS(TERM)                             \
     TERM(gravity, vertex, conservative)         \
     TERM(membrane, face, conservative)          \
     TERM(curved_membrane, face, conservative)   \
+    TERM(spring, spring, conservative)          \
     TERM(bending, hinge, conservative)          \
     TERM(seam, stitch, conservative)            \
     TERM(damping, vertex, dissipative)          \

@@ -3,10 +3,10 @@
 
 namespace selvage {
 
-/// Energy of whichever in-plane model the phase runs [J].
+/// Energy of whichever in-plane model the phase runs [J]; bend springs are springs too and count here.
 inline double in_plane_energy(const Newton& newton)
 {
-    return newton.energy_of("membrane") + newton.energy_of("curved_membrane");
+    return newton.energy_of("membrane") + newton.energy_of("curved_membrane") + newton.energy_of("spring");
 }
 
 }  // namespace selvage

@@ -1,7 +1,16 @@
 #include "host/solver/phase.hpp"
 
+#include "host/solver/springs.hpp"
+
 namespace selvage {
 namespace {
+
+Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
+{
+    Topology topology = make_topology(model.cloth, options.joined);
+    add_springs(topology, model.cloth, model.fabrics, springs_of(options.params));
+    return topology;
+}
 
 ParticleTransfers particle_transfers(const ClothModel& model, const Topology& finest, bool joined)
 {
@@ -19,7 +28,7 @@ ParticleTransfers particle_transfers(const ClothModel& model, const Topology& fi
 
 Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
              const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
-    : options_(options), topology_(make_topology(model.cloth, options.joined)),
+    : options_(options), topology_(phase_topology(model, options)),
       state_(topology_sizes(topology_, int(model.fabrics.size())), required_fields(options.params))
 {
     fill_state(state_, topology_, model.cloth, model.fabrics, positions, velocities);

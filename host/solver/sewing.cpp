@@ -86,6 +86,7 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
 {
     const Params worn = phase.params();
     phase.params().bending.scale *= press_bending;
+    phase.params().spring.bend_scale *= press_bending;
     phase.params().friction.scale = 0;
     phase.params().gravity = {};
     StepControl control(phase, step);

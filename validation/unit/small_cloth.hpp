@@ -2,6 +2,7 @@
 #include <random>
 #include <vector>
 
+#include "host/solver/springs.hpp"
 #include "host/solver/terms.hpp"
 #include "host/solver/topology.hpp"
 
@@ -86,7 +87,8 @@ inline State crumpled_state(const Params& params, unsigned seed = 7)
 {
     Cloth cloth = grid_cloth(4, 4);
     cloth.seam_pairs = {{0, 15}, {1, 2}};
-    const Topology topology = make_topology(cloth, false);
+    Topology topology = make_topology(cloth, false);
+    add_springs(topology, cloth, curved_fabrics(), springs_of(params));
     State state(topology_sizes(topology, 1), required_fields(params));
     fill_state(state, topology, cloth, curved_fabrics(), cloth.positions, {});
     std::mt19937 random(seed);
