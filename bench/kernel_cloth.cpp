@@ -8,6 +8,7 @@
 #include "host/garment/sheet.hpp"
 #include "host/garment/transfer.hpp"
 #include "host/solver/cloth_state.hpp"
+#include "host/solver/springs.hpp"
 #include "host/solver/terms.hpp"
 
 namespace selvage {
@@ -76,8 +77,9 @@ KernelCloth::KernelCloth(int vertex_count) : params(all_strengths())
     const int resolution = std::max(4, int(std::lround(std::sqrt(double(vertex_count)))));
     Cloth cloth = square_sheet(resolution);
     add_stitches(cloth, resolution);
-    const Topology topology = make_topology(cloth, false);
     const FabricTable fabrics = one_fabric();
+    Topology topology = make_topology(cloth, false);
+    add_springs(topology, cloth, fabrics, springs_of(params));
     std::vector<Vec3> positions, velocities;
     lay_on_dome(cloth, positions, velocities);
     state = make_state(topology, cloth, fabrics, params, positions, velocities);

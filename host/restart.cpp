@@ -57,6 +57,9 @@ std::string model_fingerprint(const SceneModel& model)
         for (double value : {f.areal_density, f.stretch_weft, f.stretch_warp, f.stretch_coupling, f.shear,
                              f.bending_weft, f.bending_warp, f.friction, f.damping})
             print.add(value);
+    for (const auto& [name, f] : model.model.fabrics)
+        for (const StressCurve& curve : membrane_curves(f))
+            for (const CurveRange& range : curve) print.add(range);
     for (const Body& body : model.model.bodies)
         for (const Vec3& x : body.mesh.vertices) print.add(x);
     return print.text();

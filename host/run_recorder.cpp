@@ -8,6 +8,7 @@
 
 #include "host/cloth_picture.hpp"
 #include "host/measure.hpp"
+#include "host/solver/elastic_energy.hpp"
 #include "io/errors.hpp"
 #include "io/memory.hpp"
 #include "io/mesh_obj.hpp"
@@ -194,8 +195,8 @@ void RunRecorder::conclude(RunStatus status, Phase& phase, const RunPlan& plan, 
     s.active = plan.active;
     for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
     s.residual = residual;
-    s.energy.membrane = phase.newton().energy_of("membrane");
-    s.energy.bending = phase.newton().bending_energy();
+    s.energy.membrane = in_plane_energy(phase.newton());
+    s.energy.bending = bending_energy(phase.newton());
     s.energy.gravity = phase.newton().energy_of("gravity");
     s.energy.contact = phase.newton().energy_of("body_contact");
     s.energy.kinetic = phase.newton().kinetic_energy();

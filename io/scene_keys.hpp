@@ -4,6 +4,7 @@
 //     KEY(type, name, default, unit, low, high, meaning)    a number or a flag in [low, high]
 //     WORD(name, default, choices, meaning)                  one of the words in `choices`, separated by |; "" = any text
 //     VEC3(name, x, y, z, unit, meaning)                     three numbers
+//     CURVE(name, number, measure, meaning)                  measured points [[strain, stress], ...]; they stand for `number`
 // A default of `automatic` means: not given, chosen by the program.
 
 #define GARMENT_KEYS(KEY, WORD, VEC3)                                                                            \
@@ -54,14 +55,21 @@
     KEY(double, arm_length, automatic, "m", 0.3, 1.2, "mannequin: shoulder to wrist")                            \
     KEY(double, arm_angle, automatic, "degrees", 0, 90, "mannequin: arm below the horizontal; 90 hangs down")
 
-#define FABRIC_KEYS(KEY, WORD)                                                                                   \
+#define FABRIC_KEYS(KEY, WORD, CURVE)                                                                            \
     WORD(base, "", "", "preset whose values are used where this table is silent")                                \
     KEY(double, areal_density, automatic, "kg/m^2", 0.005, 5, "mass per area")                                   \
     KEY(double, thickness, automatic, "m", 1e-5, 0.02, "thickness")                                              \
-    KEY(double, stretch_weft, automatic, "N/m", 0.1, 1e7, "membrane stiffness along weft")                       \
-    KEY(double, stretch_warp, automatic, "N/m", 0.1, 1e7, "membrane stiffness along warp")                       \
+    KEY(double, stretch_weft, automatic, "N/m", 0.1, 1e7, "membrane stiffness along weft; with a curve: its slope at 0") \
+    KEY(double, stretch_warp, automatic, "N/m", 0.1, 1e7, "membrane stiffness along warp; with a curve: its slope at 0") \
     KEY(double, stretch_coupling, automatic, "N/m", 0, 1e7, "coupling of weft and warp")                         \
-    KEY(double, shear, automatic, "N/m", 0, 1e7, "shear stiffness per radian")                                   \
+    KEY(double, shear, automatic, "N/m", 0, 1e7, "shear stiffness per radian; with a curve: its slope at 0")     \
+    CURVE(stretch_weft_curve, stretch_weft, tension, "tension along weft in place of stretch_weft: elongation over length [1], force over unstretched width [N/m], as KES-FB1 prints them; read as e = x + x^2/2 (Green-Lagrange) and s = P/(1 + x) (second Piola-Kirchhoff)") \
+    CURVE(stretch_warp_curve, stretch_warp, tension, "tension along warp in place of stretch_warp, as for weft")               \
+    CURVE(shear_curve, shear, shear, "shear in place of `shear`: angle phi [rad], shear force over length [N/m]; read as g = sin(phi), as of yarns that keep their length, and s = F") \
+    WORD(curve, "", "piecewise|smooth", "between the points of this table's curves: straight, which is the default, or monotone cubic") \
+    KEY(double, stretch_limit, automatic, "1", 0, 10, "elongation beyond which weft and warp stiffen; 0, the default: none") \
+    KEY(double, shear_limit, automatic, "rad", 0, 1.5, "shear angle beyond which shear stiffens; 0, the default: none") \
+    KEY(double, stretch_limit_factor, automatic, "1", 1, 1e4, "multiplies the slopes beyond these limits; default 20") \
     KEY(double, bending_weft, automatic, "N m", 0, 1, "bending rigidity along weft")                             \
     KEY(double, bending_warp, automatic, "N m", 0, 1, "bending rigidity along warp")                             \
     KEY(double, bending_coupling, automatic, "N m", 0, 1, "rigidity that couples the curvatures along weft and warp; automatic: 0") \
@@ -93,11 +101,11 @@
     KEY(bool, body, true, "1", 0, 1, "contact between cloth and bodies")
 
 #define MEMBRANE_KEYS(KEY, WORD, VEC3)                                                                           \
-    WORD(model, "orthotropic", "orthotropic|none", "in-plane model of the cloth")                                \
+    WORD(model, "orthotropic", "orthotropic|springs|none", "in-plane model of the cloth; springs follow stretch and shear at small strain, coupling becomes the shear stiffness") \
     KEY(double, scale, 1, "1", 0, 1e6, "multiplies every membrane stiffness")
 
 #define BENDING_KEYS(KEY, WORD, VEC3)                                                                            \
-    WORD(model, "plate", "plate|hinge|none", "bending model: plate shows the fabric's rigidity on any mesh, plain hinges err by 0.75 to 3 times")                                        \
+    WORD(model, "automatic", "automatic|plate|hinge|springs|none", "bending model: plate shows the fabric's rigidity on any mesh, plain hinges err by 0.75 to 3 times, springs match it at a curvature of 50/m only; automatic: springs if the membrane is of springs, else plate") \
     KEY(double, scale, 1, "1", 0, 1e6, "multiplies every bending rigidity")
 
 #define SEAMS_KEYS(KEY, WORD, VEC3)                                                                              \

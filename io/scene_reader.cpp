@@ -117,6 +117,32 @@ void TableReader::read(const char* name, std::string& target, const char* choice
     target = text->get();
 }
 
+void TableReader::read(const char* name, std::vector<Vec2>& target, int most, double largest_strain,
+                       const char* strain_unit)
+{
+    const toml::node* node = find(name);
+    if (!node) return;
+    const toml::array* list = node->as_array();
+    const std::string shape = "1 to " + std::to_string(most) + " points [[strain, stress], ...]";
+    if (!list || list->empty()) refuse(name, *node, shape);
+    target.clear();
+    Vec2 last = Vec2::Zero();
+    for (const toml::node& item : *list) {
+        const toml::array* pair = item.as_array();
+        const std::optional<double> strain = pair && pair->size() == 2 ? number_of(*pair->get(0)) : std::nullopt;
+        const std::optional<double> stress = strain ? number_of(*pair->get(1)) : std::nullopt;
+        if (!stress) refuse(name, item, "a point [strain, stress] of two numbers");
+        const Vec2 point(*strain, *stress);
+        if (&item == &(*list)[0] && point.isZero()) continue;
+        const bool grows = point.x() > last.x() && point.y() > last.y();   // false for NaN too
+        if (!grows || !(point.x() <= largest_strain) || !(point.y() <= 1e9))
+            refuse(name, item, "strain and stress above those of the point before, from [0, 0]; strain up to " +
+                                   number_text(largest_strain) + " " + strain_unit + ", stress up to 1e9 N/m");
+        target.push_back(last = point);
+    }
+    if (target.empty() || int(target.size()) > most) refuse(name, *node, shape + " besides [0, 0]");
+}
+
 void TableReader::read(const char* name, std::vector<std::string>& target)
 {
     const toml::node* node = find(name);

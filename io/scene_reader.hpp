@@ -48,6 +48,9 @@ public:
     void read(const char* name, Vec3& target, const char* unit);
     /// @param choices  accepted words separated by |, or "" for any text
     void read(const char* name, std::string& target, const char* choices);
+    /// Reads up to `most` points [[strain, stress], ...] in which both numbers increase from above 0; a first point
+    /// [0, 0] may be given and is left out of the target.
+    void read(const char* name, std::vector<Vec2>& target, int most, double largest_strain, const char* strain_unit);
     /// Reads a list of texts.
     void read(const char* name, std::vector<std::string>& target);
 

@@ -63,9 +63,17 @@ KeyText vector_key(const char* name, double x, double y, double z, const char* u
     return key;
 }
 
+KeyText curve_key(const char* name, const char* meaning)
+{
+    KeyText key{name, "points", "none", "1, N/m", "[[strain, stress], ...]", meaning, {}};
+    key.json = {{"name", name}, {"type", key.type}, {"default", nullptr}, {"unit", key.unit}, {"meaning", meaning}};
+    return key;
+}
+
 #define LIST_KEY(type, name, initial, unit, low, high, meaning) \
     number_key<type>(#name, initial, unit, low, high, meaning),
 #define LIST_WORD(name, initial, choices, meaning) word_key(#name, initial, choices, meaning),
+#define LIST_CURVE(name, number, measure, meaning) curve_key(#name, meaning),
 #define LIST_VEC3(name, x, y, z, unit, meaning) vector_key(#name, x, y, z, unit, meaning),
 std::vector<TableText> tables()
 {
@@ -86,12 +94,13 @@ std::vector<TableText> tables()
     list.push_back({"[[body]]", "body", "what the cloth falls on; may be repeated", true,
                     {BODY_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
     list.push_back({"[fabric.NAME]", "fabric.NAME", "a fabric of the scene's own, or changes to a built-in one", false,
-                    {FABRIC_KEYS(LIST_KEY, LIST_WORD)}});
+                    {FABRIC_KEYS(LIST_KEY, LIST_WORD, LIST_CURVE)}});
     return list;
 }
 #undef LIST_KEY
 #undef LIST_WORD
 #undef LIST_VEC3
+#undef LIST_CURVE
 
 void append_column(std::string& line, const std::string& text, std::size_t width)
 {

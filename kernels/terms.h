@@ -6,16 +6,20 @@
 #pragma once
 #include "terms/bending.h"
 #include "terms/body_contact.h"
+#include "terms/curved_membrane.h"
 #include "terms/damping.h"
 #include "terms/friction.h"
 #include "terms/gravity.h"
 #include "terms/membrane.h"
 #include "terms/plate.h"
 #include "terms/seam.h"
+#include "terms/spring.h"
 
 #define TERMS(TERM)                                       \
     TERM(gravity, vertex, conservative, no_stage)         \
     TERM(membrane, face, conservative, no_stage)          \
+    TERM(curved_membrane, face, conservative, no_stage)   \
+    TERM(spring, spring, conservative, no_stage)          \
     TERM(bending, hinge, conservative, no_stage)          \
     TERM(plate, hinge, conservative, plate_turns)         \
     TERM(seam, stitch, conservative, no_stage)            \

@@ -18,10 +18,26 @@ struct Property {
 
 // Names and units come from the list of scene keys, so a new property shows up here by itself.
 #define PROPERTY(type, name, initial, unit, low, high, meaning) {#name, unit, &Fabric::name},
-#define NOT_A_NUMBER(name, initial, choices, meaning)
-constexpr Property properties[] = {FABRIC_KEYS(PROPERTY, NOT_A_NUMBER)};
+#define LIST_CURVE(name, number, measure, meaning) {#name, CurveMeasure::measure, &Fabric::name},
+#define NOT_A_KEY(name, ...)
+constexpr Property properties[] = {FABRIC_KEYS(PROPERTY, NOT_A_KEY, NOT_A_KEY)};
+struct CurveProperty {
+    const char* name;
+    CurveMeasure measure;
+    StressCurve Fabric::*curve;
+};
+constexpr CurveProperty curves[] = {FABRIC_KEYS(NOT_A_KEY, NOT_A_KEY, LIST_CURVE)};
 #undef PROPERTY
-#undef NOT_A_NUMBER
+#undef LIST_CURVE
+#undef NOT_A_KEY
+
+// The ends of a curve's ranges as they would be measured.
+std::vector<Vec2> measured_ends(const StressCurve& curve, CurveMeasure measure)
+{
+    std::vector<Vec2> ends;
+    for (const CurveRange& range : curve) ends.push_back(measured_point(measure, {range.start, range.stress}));
+    return ends;
+}
 
 void print_json()
 {
@@ -30,10 +46,24 @@ void print_json()
         const Fabric fabric = fabric_preset(name);
         nlohmann::ordered_json entry{{"name", name}};
         for (const Property& property : properties) entry[property.name] = fabric.*property.value;
+        for (const CurveProperty& property : curves) {
+            if ((fabric.*property.curve).empty()) continue;
+            for (const Vec2& point : measured_ends(fabric.*property.curve, property.measure))
+                entry[property.name].push_back({point.x(), point.y()});
+        }
         entry["source"] = fabric.source;
         list.push_back(entry);
     }
     std::cout << list.dump(2) << '\n';
+}
+
+void print_curve(const StressCurve& curve, const CurveProperty& property)
+{
+    if (curve.empty()) return;
+    std::cout << "    " << property.name << " =";
+    for (const Vec2& point : measured_ends(curve, property.measure)) std::cout << " " << point.x() << ":" << point.y();
+    std::cout << " " << (property.measure == CurveMeasure::tension ? "m/m:N/m" : "rad:N/m") << ", then "
+              << curve.back().slope << " N/m\n";
 }
 
 void print_text()
@@ -43,6 +73,7 @@ void print_text()
         std::cout << name << '\n';
         for (const Property& property : properties)
             std::cout << "    " << property.name << " = " << fabric.*property.value << " " << property.unit << '\n';
+        for (const CurveProperty& property : curves) print_curve(fabric.*property.curve, property);
         std::cout << "    source: " << fabric.source << '\n';
     }
 }

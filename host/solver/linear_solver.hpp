@@ -15,7 +15,7 @@ struct BlockPattern {
     std::vector<int> row_begin;   ///< Particle count + 1.
     std::vector<int> column;      ///< Sorted within a row.
     /// Per entry of the kind's gather list and corner: the block within the row.
-    std::vector<std::uint16_t> face_place, hinge_place, stitch_place;
+    std::vector<std::uint16_t> face_place, hinge_place, stitch_place, spring_place;
 
     int rows() const { return int(row_begin.size()) - 1; }
     int blocks() const { return int(column.size()); }

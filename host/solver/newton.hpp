@@ -47,7 +47,6 @@ public:
     double force_scale() const { return force_scale_; }   ///< [N]
 
     double energy_of(std::string_view term) const;   ///< Energy of one term at the present state [J]; 0 if inactive.
-    double bending_energy() const { return energy_of("bending") + energy_of("plate"); }   ///< Of whichever model [J].
     double potential_energy() const;                 ///< Of all conservative terms [J].
     double kinetic_energy() const;                   ///< [J]
 

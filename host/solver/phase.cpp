@@ -1,9 +1,17 @@
 #include "host/solver/phase.hpp"
 
 #include "host/solver/cloth_state.hpp"
+#include "host/solver/springs.hpp"
 
 namespace selvage {
 namespace {
+
+Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
+{
+    Topology topology = make_topology(model.cloth, options.joined);
+    add_springs(topology, model.cloth, model.fabrics, springs_of(options.params));
+    return topology;
+}
 
 ParticleTransfers particle_transfers(const ClothModel& model, const Topology& finest, bool joined)
 {
@@ -21,7 +29,7 @@ ParticleTransfers particle_transfers(const ClothModel& model, const Topology& fi
 
 Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
              const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
-    : options_(options), topology_(make_topology(model.cloth, options.joined)),
+    : options_(options), topology_(phase_topology(model, options)),
       state_(make_state(topology_, model.cloth, model.fabrics, options.params, positions, velocities))
 {
     const bool multigrid = options.linear.preconditioner == Preconditioner::multigrid;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "host/solver/springs.hpp"
+
 namespace selvage {
 namespace {
 
@@ -15,6 +17,12 @@ bool any_fabric(const SceneModel& model, double Fabric::*property)
 {
     return std::any_of(model.model.fabrics.begin(), model.model.fabrics.end(),
                        [&](const auto& entry) { return entry.second.*property > 0; });
+}
+
+bool any_curve(const SceneModel& model)
+{
+    return std::any_of(model.model.fabrics.begin(), model.model.fabrics.end(),
+                       [](const auto& entry) { return has_curves(entry.second); });
 }
 
 double contact_stiffness(const Scene& scene, const SceneModel& model)
@@ -42,14 +50,22 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
         params.gravity.acceleration_y = scene.solver.gravity.y();
         params.gravity.acceleration_z = scene.solver.gravity.z();
     }
-    params.membrane.scale = scene.membrane.model == "none" ? 0 : scene.membrane.scale;
+    const double membrane = scene.membrane.model == "none" ? 0 : scene.membrane.scale;
+    double& strength = scene.membrane.model == "springs" ? params.spring.scale
+                       : any_curve(model)                ? params.curved_membrane.scale
+                                                         : params.membrane.scale;
+    strength = membrane;
     const bool bends = any_fabric(model, &Fabric::bending_weft) || any_fabric(model, &Fabric::bending_warp);
-    params.bending.scale = scene.bending.model == "hinge" && bends ? scene.bending.scale : 0;
-    params.plate.scale = scene.bending.model == "plate" && bends ? scene.bending.scale : 0;
+    const bool bend_springs = scene.bending.model == "springs" ||
+                              (scene.bending.model == "automatic" && scene.membrane.model == "springs");
+    const bool plates = scene.bending.model == "plate" || (scene.bending.model == "automatic" && !bend_springs);
+    (bend_springs ? params.spring.bend_scale : plates ? params.plate.scale : params.bending.scale) =
+        scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
     params.damping.scale = any_fabric(model, &Fabric::damping) ? 1 : 0;
     if (sewing) {
         params.bending.scale *= scene.seams.stiffening;
         params.plate.scale *= scene.seams.stiffening;
+        params.spring.bend_scale *= scene.seams.stiffening;
         // A stitch stands for one edge length of seam, so that sewing does not depend on the resolution.
         params.seam.stiffness = scene.seams.stiffness * model.edge_length;
         params.seam.force_limit = scene.seams.force_limit * model.edge_length;
@@ -66,9 +82,10 @@ std::size_t solver_estimate(const Scene& scene, const mesh_sizes& size, bool lev
 {
     const std::size_t scalar = scene.solver.precision == "float" ? 4 : 8;
     const std::size_t blocks = std::size_t(size.vertex_count) + 2 * std::size_t(size.face_count) * 3 / 2 +
-                               2 * std::size_t(size.hinge_count);
+                               2 * std::size_t(size.hinge_count) + 2 * std::size_t(size.spring_count);
     const std::size_t matrix = blocks * (9 * scalar + 4) + std::size_t(size.vertex_count) * (9 + 15) * scalar;
-    const std::size_t places = 2 * (9 * std::size_t(size.face_count) + 16 * std::size_t(size.hinge_count));
+    const std::size_t places = 2 * (9 * std::size_t(size.face_count) + 16 * std::size_t(size.hinge_count) +
+                                    4 * std::size_t(size.spring_count));
     // Coarse matrices are a third of the finest one; the plan of their products holds nine entries per fine block.
     return matrix + places + (levels ? matrix / 3 + 9 * 4 * blocks * 4 / 3 : 0);
 }
@@ -80,7 +97,8 @@ PhasePlan plan_phase(const Scene& scene, const SceneModel& model, bool sewing)
     phase.params = phase_params(scene, model, sewing);
     phase.joined = !sewing;
     phase.queries_bodies = phase.params.body_contact.stiffness > 0;
-    const Topology topology = make_topology(model.model.cloth, phase.joined);
+    Topology topology = make_topology(model.model.cloth, phase.joined);
+    add_springs(topology, model.model.cloth, model.model.fabrics, springs_of(phase.params));
     const bool plate = phase.params.plate.scale > 0;
     const mesh_sizes size = topology_sizes(topology, int(model.model.fabrics.size()),
                                            plate ? couplings_per_hinge * int(topology.hinges.size()) : 0);
@@ -98,9 +116,19 @@ std::string absence(const Scene& scene, const SceneModel& model, std::string_vie
 {
     const bool bodies = !model.model.bodies.empty();
     if (term == "gravity") return "solver.gravity is zero";
-    if (term == "membrane") return "membrane.model is none or its scale is zero";
-    if (term == "bending") return "bending.model is not hinge, or no fabric has a bending rigidity";
-    if (term == "plate") return "bending.model is not plate, or no fabric has a bending rigidity";
+    const bool springs = scene.membrane.model == "springs", bend_springs = scene.bending.model == "springs";
+    const bool membrane = scene.membrane.model != "none" && scene.membrane.scale > 0;
+    if (term == "spring") return "neither membrane.model nor bending.model is springs";
+    if ((term == "membrane" || term == "curved_membrane") && springs) return "membrane.model is springs";
+    if ((term == "bending" || term == "plate") && (bend_springs || (springs && scene.bending.model == "automatic")))
+        return "bend springs are in its place (bending.model)";
+    if (term == "bending" && scene.bending.model != "hinge" && scene.bending.model != "none")
+        return "coupled hinges are in its place (bending.model)";
+    if (term == "plate" && scene.bending.model == "hinge") return "plain hinges are in its place (bending.model)";
+    if (term == "membrane" && membrane) return "a fabric has a stress curve or limit: curved_membrane is in its place";
+    if (term == "curved_membrane" && membrane) return "no fabric has a stress curve or limit";
+    if (term == "membrane" || term == "curved_membrane") return "membrane.model is none or its scale is zero";
+    if (term == "bending" || term == "plate") return "bending.model is none, or no fabric has a bending rigidity";
     if (term == "seam") return "there are no seams";
     if (term == "damping") return "no fabric has damping";
     if (!bodies) return "there are no bodies";

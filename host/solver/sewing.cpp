@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/solver/elastic_energy.hpp"
 #include "host/solver/launch.hpp"
 
 namespace selvage {
@@ -51,7 +52,7 @@ void pull_harder_if_stuck(Phase& phase, const SewingOptions& options, SewingProg
 
 void note_step(Phase& phase, SewingProgress& progress)
 {
-    const double energy = phase.newton().energy_of("membrane") + phase.newton().bending_energy();
+    const double energy = in_plane_energy(phase.newton()) + bending_energy(phase.newton());
     progress.gap = largest_gap(phase);
     progress.energy_change = std::abs(energy - progress.elastic_energy) / std::max(energy, 1e-12);
     progress.elastic_energy = energy;
@@ -86,6 +87,7 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
     const Params worn = phase.params();
     phase.params().bending.scale *= press_bending;
     phase.params().plate.scale *= press_bending;
+    phase.params().spring.bend_scale *= press_bending;
     phase.params().friction.scale = 0;
     phase.params().gravity = {};
     StepControl control(phase, step);

@@ -118,7 +118,7 @@ std::span<const Term> all_terms()
 
 std::string_view kind_name(ItemKind kind)
 {
-    constexpr std::string_view names[] = {"vertex", "face", "hinge", "stitch"};
+    constexpr std::string_view names[] = {"vertex", "face", "hinge", "stitch", "spring"};
     return names[int(kind)];
 }
 

@@ -8,7 +8,7 @@
 namespace selvage {
 
 enum class Nature { conservative, dissipative };
-enum class ItemKind { vertex, face, hinge, stitch };
+enum class ItemKind { vertex, face, hinge, stitch, spring };
 
 /// What the planner, the solver, the tests and the documentation know about one force term.
 struct Term {

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "host/solver/launch.hpp"
+#include "host/solver/materials.hpp"
+#include "host/solver/springs.hpp"
 
 namespace selvage {
 namespace {
@@ -116,20 +118,6 @@ PanelFabrics panel_fabrics(const Cloth& cloth, const FabricTable& fabrics)
     return table;
 }
 
-void fill_materials(State& state, const FabricTable& fabrics)
-{
-    if (state.material_stretch.empty()) return;
-    const int stride = state.size.material_stride;
-    int row = 0;
-    for (const auto& [name, fabric] : fabrics) {
-        state.material_stretch[row] = fabric.stretch_weft;
-        state.material_stretch[stride + row] = fabric.stretch_warp;
-        state.material_stretch[2 * stride + row] = fabric.stretch_coupling;
-        state.material_stretch[3 * stride + row] = fabric.shear;
-        ++row;
-    }
-}
-
 void fill_faces(State& state, const Topology& topology, const Cloth& cloth, const PanelFabrics& fabrics)
 {
     const int fs = state.size.face_stride;
@@ -219,11 +207,13 @@ mesh_sizes topology_sizes(const Topology& topology, int material_count, int coup
     size.face_count = int(topology.faces.size());
     size.hinge_count = int(topology.hinges.size());
     size.stitch_count = int(topology.stitches.size());
+    size.spring_count = int(topology.springs.size());
     size.material_count = material_count;
     size.face_slot_count = 3 * size.face_count;
     size.hinge_slot_count = 4 * size.hinge_count;
     size.stitch_slot_count = 2 * size.stitch_count;
     size.coupling_count = coupling_count;
+    size.spring_slot_count = 2 * size.spring_count;
 #define STRIDE(kind) size.kind##_stride = padded_stride(size.kind##_count);
     ITEM_KINDS(STRIDE)
 #undef STRIDE
@@ -237,6 +227,7 @@ void fill_state(State& state, const Topology& topology, const Cloth& cloth, cons
     fill_materials(state, fabrics);
     fill_faces(state, topology, cloth, table);
     fill_hinges(state, topology, cloth, table);
+    fill_springs(state, topology);
     for (int s = 0; s < int(topology.stitches.size()) && !state.stitch_vertex.empty(); ++s)
         for (int k = 0; k < 2; ++k)
             state.stitch_vertex[k * state.size.stitch_stride + s] = topology.stitches[s][k];
@@ -245,6 +236,9 @@ void fill_state(State& state, const Topology& topology, const Cloth& cloth, cons
     fill_slots(topology.faces, n, vs, state.face_slots, state.face_slot);
     fill_slots(topology.hinges, n, vs, state.hinge_slots, state.hinge_slot);
     fill_slots(topology.stitches, n, vs, state.stitch_slots, state.stitch_slot);
+    std::vector<std::array<int, 2>> spring_ends;
+    for (const Spring& spring : topology.springs) spring_ends.push_back(spring.vertex);
+    fill_slots(spring_ends, n, vs, state.spring_slots, state.spring_slot);
 
     // Each cloth vertex carries its own share of its particle's mass.
     std::vector<double> share(positions.size());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/garment/cloth.hpp"
+#include "host/solver/spring.hpp"
 #include "host/solver/state.hpp"
 #include "io/fabric.hpp"
 
@@ -19,6 +20,7 @@ struct Topology {
     std::vector<std::array<int, 4>> hinges;    ///< Edge ends, then the corner opposite in each face (particles).
     std::vector<std::array<int, 2>> hinge_faces;
     std::vector<std::array<int, 2>> stitches;  ///< Pairs of particles that a seam force still pulls together.
+    std::vector<Spring> springs;               ///< Of the spring model; see springs.hpp.
 };
 
 /// Connects the cloth.

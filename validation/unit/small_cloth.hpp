@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "host/solver/cloth_state.hpp"
+#include "host/solver/springs.hpp"
 #include "host/solver/terms.hpp"
 #include "host/solver/topology.hpp"
 
@@ -68,14 +69,28 @@ inline FabricTable test_fabrics()
     return {{"test", fabric}};
 }
 
+/// The same with curves of every form and over-elongation limits, so that a crumpled sheet reaches many ranges.
+inline FabricTable curved_fabrics()
+{
+    FabricTable fabrics = test_fabrics();
+    Fabric& fabric = fabrics.at("test");
+    fabric.stretch_weft_curve = piecewise_curve({{0.05, 0.2}, {0.2, 1}, {0.5, 4}});
+    fabric.stretch_warp_curve = smooth_curve({{0.1, 0.2}, {0.3, 0.9}, {0.4, 2}});
+    fabric.shear_curve = cubic_curve(0.7, -0.2, 3);
+    fabric.stretch_limit = 0.35;
+    fabric.shear_limit = 0.4;
+    return fabrics;
+}
+
 /// The grid with random displacements of 40 % of its spacing, random velocities, contacts near the barrier's gap,
 /// slipping and sticking anchors, and stitches between its first and last vertices.
 inline State crumpled_state(const Params& params, unsigned seed = 7)
 {
     Cloth cloth = grid_cloth(4, 4);
     cloth.seam_pairs = {{0, 15}, {1, 2}};
-    const Topology topology = make_topology(cloth, false);
-    State state = make_state(topology, cloth, test_fabrics(), params, cloth.positions, {});
+    Topology topology = make_topology(cloth, false);
+    add_springs(topology, cloth, curved_fabrics(), springs_of(params));
+    State state = make_state(topology, cloth, curved_fabrics(), params, cloth.positions, {});
     std::mt19937 random(seed);
     std::uniform_real_distribution<real> uniform(-1, 1);
     const int vs = state.size.vertex_stride;

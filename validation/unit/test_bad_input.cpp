@@ -164,6 +164,26 @@ TEST_CASE("scenes that do not fit together are refused")
     });
 }
 
+TEST_CASE("stress curves that do not rise from the origin are refused at their point")
+{
+    const auto with = [](const std::string& line) { return "[[sheet]]\n[fabric.f]\nbase = \"cotton\"\n" + line + "\n"; };
+    check_scenes({
+        {with("shear_curve = 3"), {":4:", "fabric.f.shear_curve", "points"}},
+        {with("shear_curve = []"), {":4:", "fabric.f.shear_curve", "1 to 8 points"}},
+        {with("shear_curve = [[0, 0]]"), {":4:", "fabric.f.shear_curve", "1 to 8 points"}},
+        {with("shear_curve = [[0.1, 2],\n[0.2]]"), {":5:", "fabric.f.shear_curve", "two numbers"}},
+        {with("shear_curve = [[0.1, 2],\n[0.1, 3]]"), {":5:", "fabric.f.shear_curve", "above those of the point before"}},
+        {with("shear_curve = [[0.1, 2],\n[0.2, 1]]"), {":5:", "fabric.f.shear_curve", "above those of the point before"}},
+        {with("shear_curve = [[0.1, nan]]"), {":4:", "fabric.f.shear_curve", "above those of the point before"}},
+        {with("shear_curve = [[1.6, 2]]"), {":4:", "fabric.f.shear_curve", "1.5 rad"}},
+        {with("stretch_warp_curve = [[0.1, 2], [0.5, 2.1]]"), {":4:", "fabric.f.stretch_warp_curve", "1 + strain"}},
+        {with("shear = 3\nshear_curve = [[0.1, 2]]"), {":4:", "fabric.f.shear", "shear_curve"}},
+        {with("curve = \"smooth\""), {":4:", "fabric.f.curve", "shear_curve"}},
+        {with("curve = \"cubic\""), {":4:", "fabric.f.curve", "piecewise"}},
+        {with("stretch_weft_curve = [[0.1, 1]]"), {"fabric.f.stretch_coupling", "smallest slopes"}},
+    });
+}
+
 TEST_CASE("text that is no TOML is refused with its line")
 {
     check_scenes({
