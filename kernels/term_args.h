@@ -3,9 +3,9 @@
 #include "portable.h"
 
 // Kinds of items: each has a count and a padded stride.
-#define ITEM_KINDS(KIND) \
-    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(spring) KIND(material) KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot) \
-    KIND(spring_slot)
+#define ITEM_KINDS(KIND)                                                        \
+    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(spring) KIND(material) \
+    KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot) KIND(spring_slot)
 
 // Kinds whose items join several vertices, with the number of corners: their forces are gathered at vertices.
 #define ELEMENT_KINDS(KIND) KIND(face, 3) KIND(hinge, 4) KIND(stitch, 2) KIND(spring, 2)
