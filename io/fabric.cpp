@@ -67,7 +67,8 @@ void merge_curve(const GivenCurve& given, const std::string& shape, const TableR
         return;
     }
     if (!std::isnan(given.given_number))
-        throw InputError(reader.place(given.number_name), "`" + std::string(given.number_name) + "` beside `" + given.name + "`",
+        throw InputError(reader.place(given.number_name),
+                         "`" + std::string(given.number_name) + "` beside `" + given.name + "`",
                          "one of the two: a curve has its own slope at zero strain");
     const std::vector<Vec2> points = membrane_points(given, reader.place(given.name));
     given.curve = shape == "smooth" ? smooth_curve(points) : piecewise_curve(points);
@@ -84,7 +85,8 @@ void merge_curves(const FabricTable& table, const TableReader& reader, Fabric& f
     FABRIC_KEYS(NOT_A_NUMBER_KEY, NOT_A_WORD, MERGE_CURVE)
 #undef MERGE_CURVE
     if (!any && !table.curve.empty())
-        throw InputError(reader.place("curve"), "a table without points", "stretch_weft_curve, stretch_warp_curve or shear_curve");
+        throw InputError(reader.place("curve"), "a table without points",
+                         "stretch_weft_curve, stretch_warp_curve or shear_curve");
 }
 
 void read_curve(TableReader& reader, const char* name, CurveMeasure measure, std::vector<Vec2>& points)

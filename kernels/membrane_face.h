@@ -48,13 +48,18 @@ KERNEL_FN void membrane_add_force(int face, real area, const membrane_state* s, 
     add3(face_force + 6 * fs, fs, face, f2);
 }
 
-// Cuts negative tangents, coupling beyond sqrt(ku kv), and the negative principal stresses of [s_uu s_uv; s_uv s_vv].
-KERNEL_FN void membrane_project(membrane_state* s)
+// Cuts negative tangents and coupling beyond sqrt(ku kv).
+KERNEL_FN void membrane_project_tangents(membrane_state* s)
 {
     s->ku = fmax(s->ku, REAL(0));
     s->kv = fmax(s->kv, REAL(0));
     s->ks = fmax(s->ks, REAL(0));
     s->kc = fmin(s->kc, sqrt(s->ku * s->kv));
+}
+
+// Cuts the negative principal stresses of [s_uu s_uv; s_uv s_vv] in closed form.
+KERNEL_FN void membrane_project_stress(membrane_state* s)
+{
     real mean = REAL(0.5) * (s->s_uu + s->s_vv), spread = REAL(0.5) * (s->s_uu - s->s_vv);
     real radius = sqrt(spread * spread + s->s_uv * s->s_uv);
     real high = fmax(mean + radius, REAL(0)), low = fmax(mean - radius, REAL(0));

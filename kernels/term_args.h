@@ -3,7 +3,7 @@
 #include "portable.h"
 
 // Kinds of items: each has a count and a padded stride.
-#define ITEM_KINDS(KIND) \
+#define ITEM_KINDS(KIND)                                                                        \
     KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(spring) KIND(material) KIND(coupling) \
     KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot) KIND(spring_slot)
 

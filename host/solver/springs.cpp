@@ -58,12 +58,13 @@ void pair_rectangles(const Topology& topology, const Cloth& cloth, std::vector<R
         if (std::max({(c - a).norm(), (c - b).norm(), (d - a).norm(), (d - b).norm()}) > diagonal) continue;
         if (((a + b) - (c + d)).norm() > 2 * nearly * diagonal) continue;
         if (std::abs((d - c).norm() - diagonal) > nearly * diagonal) continue;
-        for (const auto& [face, corner, other, way] :
-             {std::tuple(f, kf, topology.hinges[h][3], Vec2(d - c)), std::tuple(g, kg, topology.hinges[h][2], Vec2(c - d))}) {
-            faces[face].partner_corner = corner;
-            faces[face].partner_particle = other;
-            faces[face].second_diagonal = way;
-        }
+        const auto join = [&](RestFace& face, int corner, int particle, const Vec2& way) {
+            face.partner_corner = corner;
+            face.partner_particle = particle;
+            face.second_diagonal = way;
+        };
+        join(faces[f], kf, topology.hinges[h][3], d - c);
+        join(faces[g], kg, topology.hinges[h][2], c - d);
     }
 }
 
@@ -154,7 +155,8 @@ struct Wing {
 
 Wing wing_of(const RestFace& face, int corner, bool reversed)
 {
-    const Vec2 start = face.corner[(corner + (reversed ? 2 : 1)) % 3], end = face.corner[(corner + (reversed ? 1 : 2)) % 3];
+    const Vec2 start = face.corner[(corner + (reversed ? 2 : 1)) % 3];
+    const Vec2 end = face.corner[(corner + (reversed ? 1 : 2)) % 3];
     const Vec2 edge = end - start;
     const double squared = edge.squaredNorm(), length = std::sqrt(squared);
     const Fabric& f = *face.fabric;

@@ -53,6 +53,9 @@ KERNEL_FN void curved_membrane_force(int face, const curved_membrane_args* a)
 KERNEL_FN void curved_membrane_stiffness(int face, const curved_membrane_args* a)
 {
     curved_membrane_state s = curved_membrane_at(face, a);
-    if (a->mode.projected) membrane_project(&s.membrane);
+    if (a->mode.projected) {
+        membrane_project_tangents(&s.membrane);
+        membrane_project_stress(&s.membrane);
+    }
     membrane_add_stiffness(face, a->face_area[face], &s.membrane, a->face_stiffness, a->size.face_stride);
 }

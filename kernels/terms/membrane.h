@@ -40,6 +40,6 @@ KERNEL_FN void membrane_force(int face, const membrane_args* a)
 KERNEL_FN void membrane_stiffness(int face, const membrane_args* a)
 {
     membrane_state s = membrane_at(face, a);
-    if (a->mode.projected) membrane_project(&s);
+    if (a->mode.projected) membrane_project_stress(&s);
     membrane_add_stiffness(face, a->face_area[face], &s, a->face_stiffness, a->size.face_stride);
 }
