@@ -1,0 +1,17 @@
+#include "host/scene_phase.hpp"
+
+namespace selvage {
+
+PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const PhasePlan& plan)
+{
+    PhaseOptions options;
+    options.params = plan.params;
+    options.joined = plan.joined;
+    options.float_solves = scene.solver.precision == "float";
+    options.linear.max_iterations = scene.solver.linear_iterations;
+    const bool levels = !model.model.coarser.empty() && scene.solver.preconditioner != "block_jacobi";
+    options.linear.preconditioner = levels ? Preconditioner::multigrid : Preconditioner::block_jacobi;
+    return options;
+}
+
+}  // namespace selvage
