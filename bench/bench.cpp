@@ -3,6 +3,8 @@
 #include <iostream>
 
 #include "bench/kernels.hpp"
+#include "bench/stability.hpp"
+#include "bench/work_precision.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -15,7 +17,9 @@ struct Suite {
 
 const std::vector<Suite>& suites()
 {
-    static const std::vector<Suite> all = {{"kernels", bench_kernels}};
+    static const std::vector<Suite> all = {{"kernels", bench_kernels},
+                                             {"work-precision", bench_work_precision},
+                                             {"stability", bench_stability}};
     return all;
 }
 

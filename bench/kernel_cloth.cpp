@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
+#include "bench/scatter.hpp"
 #include "host/collision/body_tessellation.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/garment/transfer.hpp"
@@ -18,15 +18,6 @@ constexpr double dome_radius = 1;          // [m]
 constexpr int dome_level = 6;              // 20 * 4^6 triangles
 constexpr double contact_margin = 0.03;    // as in a run [m]
 constexpr int coarsest_vertices = 300;
-
-// A number in [-1, 1] that depends on the index only (Steele, Lea and Flood 2014, SplitMix64).
-double scatter(std::uint64_t index)
-{
-    std::uint64_t bits = (index + 1) * 0x9e3779b97f4a7c15ull;
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ull;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebull;
-    return double((bits ^ (bits >> 31)) >> 11) / 4503599627370496.0 - 1;
-}
 
 // A term that is added later has all its strengths at one.
 Params all_strengths()

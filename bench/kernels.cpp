@@ -1,7 +1,6 @@
 #include "bench/kernels.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <regex>
 
 #include <benchmark/benchmark.h>
@@ -10,21 +9,12 @@
 
 #include "bench/copy_bandwidth.hpp"
 #include "bench/kernel_cases.hpp"
+#include "bench/options.hpp"
 #include "bench/report.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
 namespace {
-
-template <class Number>
-Number read_number(const std::string& name, const std::string& text, Number low, Number high, const std::string& expected)
-{
-    Number value{};
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (fault != std::errc() || end != text.data() + text.size() || !(value >= low && value <= high))
-        throw InputError({"", 0, 0, name}, "`" + text + "`", expected);
-    return value;
-}
 
 std::regex read_filter(const std::string& text)
 {
@@ -95,16 +85,9 @@ KernelOptions read_kernel_options(const std::vector<std::string>& options)
 {
     const std::vector<std::string> names = {"--vertices", "--threads", "--min-time", "--filter"};
     KernelOptions result;
-    for (std::size_t i = 0; i < options.size(); ++i) {
-        const std::size_t equals = options[i].find('=');
-        const std::string name = options[i].substr(0, equals);
-        if (std::find(names.begin(), names.end(), name) == names.end())
-            throw InputError({"", 0, 0, "bench kernels"}, "`" + name + "`",
-                             "--vertices N, --threads N, --min-time S or --filter REGEX", nearest_name(name, names));
-        if (equals == std::string::npos && i + 1 == options.size())
-            throw InputError({"", 0, 0, name}, "no value", "a value after the option");
-        set_option(result, name, equals == std::string::npos ? options[++i] : options[i].substr(equals + 1));
-    }
+    for (const auto& [name, value] : read_options("bench kernels", options, names,
+                                                  "--vertices N, --threads N, --min-time S or --filter REGEX"))
+        set_option(result, name, value);
     read_filter(result.filter);
     return result;
 }

@@ -1,7 +1,6 @@
 #include "bench/report.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 
@@ -9,61 +8,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "io/version.hpp"
+#include "bench/machine.hpp"
 
 namespace selvage {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string cpu_name()
-{
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
-    return "unknown";
-}
-
-std::string compiler()
-{
-#ifdef __clang__
-    return "clang " __clang_version__;
-#else
-    return "g++ " __VERSION__;
-#endif
-}
-
-std::string build_type()
-{
-#if defined(__OPTIMIZE__) && defined(NDEBUG)
-    return "optimised, without assertions";
-#elif defined(__OPTIMIZE__)
-    return "optimised, with assertions";
-#else
-    return "not optimised";
-#endif
-}
-
-std::string instruction_set()
-{
-#if defined(__AVX512F__)
-    return "avx512f";
-#elif defined(__AVX2__) && defined(__FMA__)
-    return "avx2 fma";
-#elif defined(__AVX2__)
-    return "avx2";
-#else
-    return "compiler's default";
-#endif
-}
-
 void extend_context(const BenchContext& context, Json& to)
 {
-    to["version"] = version;
-    to["compiler"] = compiler();
-    to["build_type"] = build_type();
-    to["instruction_set"] = instruction_set();
-    to["cpu_name"] = cpu_name();
+    describe_machine(to);
     to["threads"] = context.threads;
     to["copy_bytes_per_second"] = context.copy_bandwidth;
     for (const auto& [name, size] : context.sizes) to[name] = size;

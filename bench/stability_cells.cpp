@@ -1,0 +1,187 @@
+#include "bench/stability_cells.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bench/scatter.hpp"
+#include "bench/scene_runner.hpp"
+#include "io/errors.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr int steps_per_cell = 10;
+constexpr double patience = 60;            // [s]
+constexpr double hurled_speed = 20;        // [m/s]
+constexpr double energy_slack = 1.05;      // what is not there to begin with may not exceed this part of what is
+
+std::vector<std::string> overrides_of(double stiffness, int resolution, double damping, bool body)
+{
+    return {fmt::format("sheet.resolution={}", resolution), "sheet.fabric=cotton",
+            fmt::format("fabric.cotton.damping={}", damping), fmt::format("membrane.scale={}", stiffness),
+            fmt::format("bending.scale={}", stiffness), fmt::format("contact.body={}", body)};
+}
+
+void begin(ViolentStart kind, double spacing, State& state)
+{
+    const int vs = state.size.vertex_stride;
+    for (int v = 0; v < state.size.vertex_count; ++v)
+        for (int c = 0; c < 3; ++c) {
+            real& x = state.pos[c * vs + v];
+            if (kind == ViolentStart::crumpled) x += 0.4 * spacing * scatter(3 * std::uint64_t(v) + c) + (c == 2 ? spacing : 0);
+            if (kind == ViolentStart::stretched && c < 2) x *= 1.5;
+            if (kind == ViolentStart::hurled && c == 2) {
+                x += 0.3;
+                state.vel[c * vs + v] = -hurled_speed;
+            }
+        }
+}
+
+double total_energy(Phase& phase) { return phase.newton().potential_energy() + phase.newton().kinetic_energy(); }
+
+// The lowest that gravity's part of the energy can get: all cloth at the bottom of a fall from its start.
+double gravity_reserve(const State& state, const Params& params, double time, double speed)
+{
+    double mass = 0;
+    for (int v = 0; v < state.size.vertex_count; ++v) mass += state.mass[v];
+    const double g = std::abs(params.gravity.acceleration_z), way = speed * time + 0.5 * g * time * time + 1;
+    return mass * g * way;
+}
+
+// Takes the steps; returns whether they were all as long as asked.
+bool take_steps(Phase& phase, const StabilityCell& cell, StabilityResult& result)
+{
+    const auto integrator = make_integrator(cell.integrator, phase);
+    StepOptions steps;
+    steps.longest = cell.step;
+    steps.unstable = UnstableStep::refuse;
+    StepControl control(phase, *integrator, steps);
+    NewtonOptions newton;
+    newton.max_iterations = 40;
+    newton.still = 3e-2;
+    const auto start = std::chrono::steady_clock::now();
+    const double until = steps_per_cell * cell.step;
+    for (double time = 0; time < until * (1 - 1e-9);) {
+        time += control.advance(until - time, newton, true);
+        result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (result.wall > patience) {
+            result.verdict = StabilityVerdict::hung;
+            return false;
+        }
+    }
+    return control.retries() == 0;
+}
+
+bool is_finite(const State& state)
+{
+    double sum = 0;
+    for (real x : state.pos) sum += x * x;
+    for (real v : state.vel) sum += v * v;
+    return std::isfinite(sum);
+}
+
+bool grows(SceneRunner& runner, const std::string& integrator_name, double dt)
+{
+    Phase phase = runner.make_phase(false);
+    State& state = phase.state();
+    for (int v = 0; v < state.size.vertex_count; ++v)
+        for (int c = 0; c < 3; ++c)
+            state.vel[c * state.size.vertex_stride + v] = 1e-9 * scatter(3 * std::uint64_t(v) + c);
+    const auto integrator = make_integrator(integrator_name, phase);
+    const double before = phase.newton().kinetic_energy();
+    for (int step = 0; step < 2000; ++step) {
+        integrator->step(dt, {});
+        if (step % 50 == 49 && !(phase.newton().kinetic_energy() < 1e4 * before)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+const char* name_of(ViolentStart start)
+{
+    constexpr const char* names[] = {"crumpled", "stretched", "hurled"};
+    return names[int(start)];
+}
+
+const char* name_of(StabilityVerdict verdict)
+{
+    constexpr const char* names[verdict_count] = {"stable", "recovered", "refused", "gave up", "hung", "garbage"};
+    return names[int(verdict)];
+}
+
+std::vector<StabilityCell> stability_cells(bool quick)
+{
+    struct Grid {
+        int resolution;
+        std::vector<double> steps, stiffness, damping;
+    };
+    const std::vector<double> fine = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
+    std::vector<Grid> grids = {{16, fine, {0.01, 0.1, 1, 10, 100}, {0, 5}},
+                               {32, {1e-5, 1e-4, 1e-3, 1e-2, 1e-1}, {0.01, 1, 100}, {0, 5}},
+                               {64, {1e-5, 1e-3, 1e-1}, {0.01, 1, 100}, {0}},
+                               {128, {1e-4, 1e-2}, {1}, {0}}};
+    if (quick) grids.resize(1);
+    std::vector<StabilityCell> cells;
+    for (const Grid& grid : grids)
+        for (const IntegratorInfo& info : integrators()) {
+            if (info.order == 0) continue;
+            for (double stiffness : grid.stiffness)
+                for (double damping : grid.damping)
+                    for (ViolentStart start : {ViolentStart::crumpled, ViolentStart::stretched, ViolentStart::hurled})
+                        for (double step : grid.steps)
+                            cells.push_back({std::string(info.name), step, stiffness, grid.resolution, damping, start});
+        }
+    return cells;
+}
+
+StabilityResult run_cell(const StabilityCell& cell)
+{
+    StabilityResult result;
+    result.cell = cell;
+    SceneRunner runner("builtin:sphere", overrides_of(cell.stiffness, cell.resolution, cell.damping, true));
+    Phase phase = runner.make_phase(true);
+    begin(cell.start, runner.model().edge_length, phase.state());
+    if (phase.contact()) phase.contact()->update(phase.state());
+    const double speed = cell.start == ViolentStart::hurled ? hurled_speed : 0;
+    const double reserve = gravity_reserve(phase.state(), phase.params(), steps_per_cell * cell.step, speed);
+    const double before = total_energy(phase) + reserve;
+    try {
+        const bool as_asked = take_steps(phase, cell, result);
+        if (result.verdict != StabilityVerdict::hung)
+            result.verdict = as_asked ? StabilityVerdict::stable : StabilityVerdict::recovered;
+    } catch (const UnstableStepError& error) {
+        result.verdict = StabilityVerdict::refused;
+        result.message = error.what();
+    } catch (const DivergenceError& error) {
+        result.verdict = StabilityVerdict::gave_up;
+        result.message = error.what();
+    }
+    result.energy_ratio = (total_energy(phase) + reserve) / before;
+    // Even a run that gives up must leave a state that is worth keeping.
+    if (!is_finite(phase.state()) || !(result.energy_ratio <= energy_slack)) result.verdict = StabilityVerdict::garbage;
+    return result;
+}
+
+LimitResult measure_limit(const std::string& integrator, double stiffness, int resolution)
+{
+    std::vector<std::string> overrides = overrides_of(stiffness, resolution, 0, false);
+    overrides.push_back("solver.gravity=[0,0,0]");
+    SceneRunner runner("builtin:sphere", overrides);
+    LimitResult result{integrator, stiffness, resolution, 0, 0};
+    {
+        Phase phase = runner.make_phase(false);
+        result.predicted = make_integrator(integrator, phase)->stable_step();
+    }
+    double low = 0.5, high = 2;
+    while (high - low > 0.005) {
+        const double middle = 0.5 * (low + high);
+        (grows(runner, integrator, middle * result.predicted) ? high : low) = middle;
+    }
+    result.measured = 0.5 * (low + high) * result.predicted;
+    return result;
+}
+
+}  // namespace selvage
