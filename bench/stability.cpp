@@ -1,10 +1,11 @@
 #include "bench/stability.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
+#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,14 +37,29 @@ const std::vector<CellKind>& kinds()
     return all;
 }
 
+// Small sheets leave threads idle: every thread has cells of its own instead.
+std::vector<StabilityResult> run_cells(const std::vector<StabilityCell>& cells)
+{
+    std::vector<StabilityResult> results(cells.size());
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        tbb::task_arena alone(1);
+        for (std::size_t i = next++; i < cells.size(); i = next++) {
+            alone.execute([&] { results[i] = run_cell(cells[i]); });
+            if (i % 100 == 99) std::cerr << fmt::format("{} of {} cells\n", i + 1, cells.size());
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int t = 0; t < tbb::this_task_arena::max_concurrency(); ++t) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+    return results;
+}
+
 Survey run_survey(bool quick)
 {
     Survey survey;
     const std::vector<StabilityCell> cells = stability_cells(quick);
-    for (const StabilityCell& cell : cells) {
-        survey.cells.push_back(run_cell(cell));
-        if (survey.cells.size() % 100 == 0) std::cerr << survey.cells.size() << " of " << cells.size() << " cells\n";
-    }
+    survey.cells = run_cells(cells);
     for (const IntegratorInfo& info : integrators()) {
         if (!info.is_explicit) continue;
         for (double stiffness : {0.01, 1.0, 100.0})

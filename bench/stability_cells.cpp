@@ -12,7 +12,6 @@
 namespace selvage {
 namespace {
 
-constexpr int steps_per_cell = 10;
 constexpr double patience = 60;            // [s]
 constexpr double hurled_speed = 20;        // [m/s]
 constexpr double energy_slack = 1.05;      // what is not there to begin with may not exceed this part of what is
@@ -39,6 +38,8 @@ void begin(ViolentStart kind, double spacing, State& state)
         }
 }
 
+int step_count(const StabilityCell& cell) { return cell.resolution > 32 ? 4 : 10; }
+
 double total_energy(Phase& phase) { return phase.newton().potential_energy() + phase.newton().kinetic_energy(); }
 
 // The lowest that gravity's part of the energy can get: all cloth at the bottom of a fall from its start.
@@ -62,7 +63,7 @@ bool take_steps(Phase& phase, const StabilityCell& cell, StabilityResult& result
     newton.max_iterations = 40;
     newton.still = 3e-2;
     const auto start = std::chrono::steady_clock::now();
-    const double until = steps_per_cell * cell.step;
+    const double until = step_count(cell) * cell.step;
     for (double time = 0; time < until * (1 - 1e-9);) {
         time += control.advance(until - time, newton, true);
         result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -146,7 +147,7 @@ StabilityResult run_cell(const StabilityCell& cell)
     begin(cell.start, runner.model().edge_length, phase.state());
     if (phase.contact()) phase.contact()->update(phase.state());
     const double speed = cell.start == ViolentStart::hurled ? hurled_speed : 0;
-    const double reserve = gravity_reserve(phase.state(), phase.params(), steps_per_cell * cell.step, speed);
+    const double reserve = gravity_reserve(phase.state(), phase.params(), step_count(cell) * cell.step, speed);
     const double before = total_energy(phase) + reserve;
     try {
         const bool as_asked = take_steps(phase, cell, result);

@@ -50,7 +50,7 @@ const char* name_of(StabilityVerdict verdict);
 /// All cells: more than 2000, fewer at the finer resolutions. @param quick  only the coarsest
 std::vector<StabilityCell> stability_cells(bool quick);
 
-/// Takes ten steps of a cell. Never throws for a run that fails.
+/// Takes ten steps of a cell, four of the finer ones. Never throws for a run that fails.
 StabilityResult run_cell(const StabilityCell& cell);
 
 /// Finds the limit by bisection.
