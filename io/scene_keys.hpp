@@ -23,7 +23,8 @@
     KEY(double, height, 1, "m", 1e-3, 100, "extent along warp (rectangle)")                                      \
     KEY(double, radius, 0.15, "m", 1e-3, 100, "radius (disc)")                                                   \
     KEY(int, resolution, 65, "1", 2, 4097, "vertices per side; across the diameter for a disc")                  \
-    WORD(mesh_family, "alternating", "alternating|same_diagonal|irregular", "how a rectangle is triangulated")   \
+    WORD(mesh_family, "automatic", "automatic|alternating|same_diagonal|rows|cross|equilateral|irregular|panel|square", \
+         "triangles: alternating (automatic) to irregular for a rectangle; panel (automatic), equilateral, square or irregular for a disc") \
     WORD(fabric, "cotton", "", "a preset's name or a [fabric.NAME] table")                                       \
     WORD(unit, "m", "m|cm|mm|inch", "length unit of the mesh file")                                              \
     WORD(up_axis, "z", "x|y|z", "up direction of the mesh file")                                                 \
