@@ -16,6 +16,8 @@ const std::vector<CaseGroup>& case_groups()
         {"rigidity", "bending rigidity shown by six mesh families in five directions", check_rigidity},
         {"cantilever", "a heavy strip clamped at one end against the elastica", check_cantilever},
         {"catenary", "a strip hanging between two supports against the catenary", check_catenary},
+        {"frequencies", "small vibrations of chains, membranes and strips", check_frequencies},
+        {"buckling", "the load at which a clamped strip on edge turns over", check_buckling},
     };
     return groups;
 }

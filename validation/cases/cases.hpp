@@ -31,5 +31,7 @@ void check_terms(CaseReport& report);
 void check_rigidity(CaseReport& report);
 void check_cantilever(CaseReport& report);
 void check_catenary(CaseReport& report);
+void check_frequencies(CaseReport& report);
+void check_buckling(CaseReport& report);
 
 }  // namespace selvage

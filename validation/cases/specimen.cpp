@@ -80,9 +80,9 @@ void Specimen::balance(double tolerance)
     options.linear_tolerance = 1e-6;
     options.full_stiffness = true;
     double residual = newton_->static_residual(), dt = 0.01;
-    for (int step = 0; step < 60 && residual > tolerance; ++step, dt *= 2) {
+    for (int step = 0; step < 60 && residual > tolerance; ++step) {
         std::fill(state_.vel.begin(), state_.vel.end(), 0);
-        newton_->step(dt, options);
+        dt *= newton_->step(dt, options).converged ? 2 : 0.5;
         residual = newton_->static_residual();
         if (residual > 0.3) continue;
         NewtonOptions last = options;
@@ -92,6 +92,15 @@ void Specimen::balance(double tolerance)
     newton_->static_residual();   // leaves the forces of the final state behind
     if (!(residual <= tolerance))
         throw std::runtime_error(fmt::format("no equilibrium: residual {:.2e}, wanted {:.0e}", residual, tolerance));
+}
+
+void Specimen::balance_from_soft(double tolerance)
+{
+    const double full = params_.membrane.scale;
+    for (const double part : {1e-3, 3e-2, 1.0}) {
+        params_.membrane.scale = part * full;
+        balance(part < 1 ? 1e-3 : tolerance);
+    }
 }
 
 ClothPanel one_panel(const Cloth& cloth)

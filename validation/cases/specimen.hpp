@@ -41,6 +41,8 @@ public:
     /// @param tolerance  residual to reach, relative to the weight
     /// @throws std::runtime_error if it is not reached
     void balance(double tolerance);
+    /// The same with a membrane that starts soft and grows as stiff as it is: a stiff one takes long to find its way.
+    void balance_from_soft(double tolerance);
 
 private:
     Params params_;

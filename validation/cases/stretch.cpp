@@ -63,7 +63,7 @@ Mismatch patch(const ReferenceRow& row, const Fabric& fabric)
     Params params;
     params.membrane.scale = 1;
     Specimen sheet(cloth, fabric, params, Solve::direct_in_plane);
-    sheet.balance(1e-12);
+    sheet.balance(1e-11);
     Mismatch mismatch;
     const double area = width * height, energy = row.number("W") * area;
     mismatch.energy = std::abs(sheet.newton().potential_energy() - energy) / energy;
