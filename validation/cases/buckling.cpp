@@ -62,7 +62,7 @@ double critical_load(const SparseMatrix& bending, const SparseMatrix& prestress)
 // Weight * L^3 / D at which the strip buckles; L = 1, D = 1.
 double buckling_load(const Strip& strip)
 {
-    constexpr double unit_load = 1, stiffness = 1e4;   // [N/m^2], [N/m]: strains of 1e-4
+    constexpr double unit_load = 1, stiffness = 1e6;   // [N/m^2], [N/m]: strains of 1e-6
     Params params = heavy_plate(Vec3(0, -unit_load, 0));
     params.plate.scale = strip.plate;
     params.bending.scale = !strip.plate;
@@ -72,7 +72,7 @@ double buckling_load(const Strip& strip)
     for (int v = 0; v < specimen.state().size.vertex_count; ++v)
         if (specimen.state().inv_mass[v] > 0) sideways.push_back(3 * v + 2);
     const SparseMatrix bending = submatrix(exact_stiffness(specimen.state(), specimen.params()), sideways);
-    specimen.balance(1e-7);
+    specimen.balance(1e-5);
     Params only_membrane;
     only_membrane.membrane.scale = 1;
     const SparseMatrix prestress = submatrix(exact_stiffness(specimen.state(), only_membrane), sideways);
