@@ -46,9 +46,11 @@ void DrapeRun::start_phase(const std::string& name, const std::vector<Vec3>& pos
 {
     const auto plan = std::find_if(plan_.phases.begin(), plan_.phases.end(),
                                    [&](const PhasePlan& phase) { return phase.name == name; });
+    integrator_.reset();
     phase_.reset();   // two phases at once would double the memory
     phase_ = std::make_unique<Phase>(model_.model, phase_options(scene_, model_, *plan),
                                      plan->queries_bodies ? &*query_ : nullptr, profile_, positions, velocities);
+    integrator_ = make_integrator(scene_.solver.integrator, *phase_);
 }
 
 void DrapeRun::begin()
@@ -70,6 +72,7 @@ void DrapeRun::resume()
     const std::string phase = progress_.phase == "sew" ? "sew" : "drape";
     start_phase(phase, model_.model.cloth.positions, {});
     load_particles(checkpoint, checkpoint_path(), *phase_);
+    load_history(checkpoint, checkpoint_path(), *integrator_);
     recorder_ = std::make_unique<RunRecorder>(scene_, model_, options_, true);
     recorder_->open_phase(phase, phase_->topology(), progress_.frames);
 }
@@ -78,12 +81,25 @@ void DrapeRun::save()
 {
     progress_.wall_seconds = elapsed();
     progress_.frames = recorder_->frame_count();
-    save_run(checkpoint_path(), model_, progress_, *phase_);
+    save_run(checkpoint_path(), model_, progress_, *phase_, *integrator_);
     last_checkpoint_ = elapsed();
+}
+
+void DrapeRun::note_stability(const StepEvent& event)
+{
+    if (std::isinf(event.stable_step)) return;
+    const bool first = std::isnan(stability_.limit);
+    stability_.asked = scene_.solver.step;
+    stability_.limit = first ? event.stable_step : std::min(stability_.limit, event.stable_step);
+    stability_.taken = first ? event.shortest : std::min(stability_.taken, event.shortest);
+    if (first && event.shortest < scene_.solver.step)
+        recorder_->say(fmt::format("solver.step is {:.3g} s, the stability limit of {} here {:.3g} s: taking steps of {:.3g} s",
+                                   scene_.solver.step, scene_.solver.integrator, event.stable_step, event.shortest));
 }
 
 bool DrapeRun::after_step(const StepEvent& event)
 {
+    note_stability(event);
     RunCounters& counters = progress_.counters;
     ++counters.steps;
     counters.newton_iterations += event.newton_iterations;
@@ -127,7 +143,11 @@ PhaseEnd DrapeRun::run_pressing()
 PhaseEnd DrapeRun::run_draping()
 {
     EquilibriumOptions options;
-    options.step = scene_.solver.step;
+    options.step.longest = scene_.solver.step;
+    options.step.adaptive = scene_.solver.adaptive;
+    options.step.error = scene_.solver.step_error;
+    options.step.unstable = scene_.solver.unstable_step == "refuse" ? UnstableStep::refuse : UnstableStep::shrink;
+    options.integrator = integrator_.get();
     options.tolerance = scene_.solver.tolerance;
     options.max_time = scene_.solver.max_time;
     options.newton_iterations = scene_.solver.newton_iterations;
@@ -168,8 +188,8 @@ RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
     if (progress_.phase != "press") recorder_->write_frame(*phase_, event, elapsed(), true);
     save();
     recorder_->close_phase();
-    recorder_->conclude(status, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters, profile_, residual,
-                        elapsed(), message);
+    recorder_->conclude(status, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters, stability_,
+                        profile_, residual, elapsed(), message);
     const bool complete = status == RunStatus::converged || status == RunStatus::finished;
     if (complete && !scene_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());
     if (options_.profile) fmt::print(stderr, "{}", profile_.table());
@@ -213,6 +233,11 @@ RunOutcome DrapeRun::execute()
         if (end == PhaseEnd::time_limit) return conclude(RunStatus::time_limit, why_not_done());
         const bool timed = scene_.solver.until != "equilibrium";
         return conclude(timed ? RunStatus::finished : RunStatus::converged, "");
+    } catch (const UnstableStepError& error) {
+        throw InputError(scene_.place("solver.step"), fmt::format("{:.6g} s", scene_.solver.step),
+                         fmt::format("at most the stability limit of {}, {:.3g} s at {:.3g} s of simulated time, as "
+                                     "solver.unstable_step is refuse",
+                                     scene_.solver.integrator, error.limit, progress_.draping.time));
     } catch (const DivergenceError& error) {
         return conclude(RunStatus::diverged, std::string("diverged: ") + error.what());
     }

@@ -31,6 +31,7 @@ private:
     PhaseEnd run_pressing();
     PhaseEnd run_draping();
     bool after_step(const StepEvent& event);
+    void note_stability(const StepEvent& event);
     double elapsed() const;
     RunOutcome conclude(RunStatus status, const std::string& message);
     RunOutcome conclude_stopped();
@@ -46,6 +47,8 @@ private:
     Profile profile_;
     std::optional<BodyQuery> query_;
     std::unique_ptr<Phase> phase_;
+    std::unique_ptr<Integrator> integrator_;   ///< Of the drape; sewing has its own.
+    StabilityUse stability_;
     RunProgress progress_;
     double wall_before_ = 0;        ///< Of the runs that this one resumes [s].
     double last_checkpoint_ = 0;    ///< elapsed() then [s].

@@ -40,6 +40,14 @@ const std::vector<T>& array_of(const std::map<std::string, std::vector<T>>& arra
     return at->second;
 }
 
+std::string history_name(std::size_t index) { return fmt::format("history_{}", index); }
+
+std::string word_of(const Checkpoint& checkpoint, const std::string& name)
+{
+    const auto at = checkpoint.words.find(name);
+    return at == checkpoint.words.end() ? std::string() : at->second;
+}
+
 }  // namespace
 
 std::string model_fingerprint(const SceneModel& model)
@@ -62,11 +70,13 @@ std::string model_fingerprint(const SceneModel& model)
     return print.text();
 }
 
-void save_run(const std::string& path, const SceneModel& model, const RunProgress& p, const Phase& phase)
+void save_run(const std::string& path, const SceneModel& model, const RunProgress& p, const Phase& phase,
+              Integrator& integrator)
 {
     const State& state = phase.state();
     Checkpoint checkpoint;
-    checkpoint.words = {{"model", model_fingerprint(model)}, {"phase", p.phase}};
+    checkpoint.words = {{"model", model_fingerprint(model)}, {"phase", p.phase},
+                        {"integrator", std::string(integrator.info().name)}};
     checkpoint.integers["counts"] = {p.counters.steps, p.counters.newton_iterations, p.counters.linear_iterations,
                                      p.frames, p.sewing.steps_without_gain, p.pressing.step, p.draping.hold};
     checkpoint.reals["clock"] = {p.counters.simulated, p.wall_seconds};
@@ -80,20 +90,18 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
     checkpoint.reals["friction_anchor"] = state.friction_anchor;
     checkpoint.reals["friction_limit"] = state.friction_limit;
     for (const auto& [name, seconds] : p.counters.phases) checkpoint.reals["phase_" + name] = {seconds};
+    const auto history = integrator.history();
+    for (std::size_t k = 0; k < history.size(); ++k) checkpoint.reals[history_name(k)] = *history[k];
     write_checkpoint(path, checkpoint);
 }
 
 RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path, const SceneModel& model)
 {
-    const auto word = [&](const char* name) {
-        const auto at = checkpoint.words.find(name);
-        return at == checkpoint.words.end() ? std::string() : at->second;
-    };
-    if (word("model") != model_fingerprint(model))
+    if (word_of(checkpoint, "model") != model_fingerprint(model))
         throw InputError({path, 0, 0, "model"}, "the checkpoint of another cloth, fabric or body",
                          "one left by this scene; run without --resume to start anew");
     RunProgress p;
-    p.phase = word("phase");
+    p.phase = word_of(checkpoint, "phase");
     if (p.phase != "sew" && p.phase != "press" && p.phase != "drape")
         throw InputError({path, 0, 0, "phase"}, "`" + p.phase + "`", "sew, press or drape");
     const auto& counts = array_of(checkpoint.integers, "counts", path, 7);
@@ -127,6 +135,14 @@ void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase
     const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
     phase.params().seam.stiffness = sewing[6];
     phase.params().seam.force_limit = sewing[7];
+}
+
+void load_history(const Checkpoint& checkpoint, const std::string& path, Integrator& integrator)
+{
+    if (word_of(checkpoint, "integrator") != integrator.info().name) return;
+    const auto history = integrator.history();
+    for (std::size_t k = 0; k < history.size(); ++k)
+        *history[k] = array_of(checkpoint.reals, history_name(k), path, history[k]->size());
 }
 
 }  // namespace selvage

@@ -21,8 +21,9 @@ struct RunProgress {
 /// Returns a text that tells scene models apart: cloth, fabrics and bodies, not how the solver is set.
 std::string model_fingerprint(const SceneModel& model);
 
-/// Writes a checkpoint: progress, the particles of the phase, and which model it belongs to.
-void save_run(const std::string& path, const SceneModel& model, const RunProgress& progress, const Phase& phase);
+/// Writes a checkpoint: progress, the particles of the phase, what the integrator remembers, and which model it is.
+void save_run(const std::string& path, const SceneModel& model, const RunProgress& progress, const Phase& phase,
+              Integrator& integrator);
 
 /// Reads what save_run wrote, except for the particles.
 /// @throws InputError if the file is missing, damaged, or of another model
@@ -31,5 +32,9 @@ RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path,
 /// Puts the particles of a checkpoint into a phase.
 /// @throws InputError if an array is missing or has another size
 void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase& phase);
+
+/// Gives an integrator the history of a checkpoint; the history of another scheme is left alone.
+/// @throws InputError if an array is missing or has another size
+void load_history(const Checkpoint& checkpoint, const std::string& path, Integrator& integrator);
 
 }  // namespace selvage

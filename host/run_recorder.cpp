@@ -168,8 +168,8 @@ void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topol
 }
 
 void RunRecorder::conclude(RunStatus status, Phase& phase, const RunPlan& plan, const BodyQuery* query,
-                           const RunCounters& counters, const Profile& profile, double residual, double wall_seconds,
-                           const std::string& message)
+                           const RunCounters& counters, const StabilityUse& stability, const Profile& profile,
+                           double residual, double wall_seconds, const std::string& message)
 {
     const std::vector<Vec3> positions = phase.positions();
     write_meshes(positions);
@@ -193,6 +193,7 @@ void RunRecorder::conclude(RunStatus status, Phase& phase, const RunPlan& plan, 
     for (const KernelRecord& k : profile.records()) s.kernels.push_back({k.name, k.calls, k.seconds, k.items, k.bytes});
     s.active = plan.active;
     for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
+    s.stability = stability;
     s.residual = residual;
     s.energy.membrane = phase.newton().energy_of("membrane");
     s.energy.bending = phase.newton().bending_energy();

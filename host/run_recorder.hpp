@@ -41,13 +41,15 @@ public:
 
     /// Tells the user where the run stands.
     void report(const std::string& phase, const StepEvent& event, int steps);
+    /// Writes a line of text for the user.
+    void say(const std::string& text) { progress_->message(text); }
     /// Writes a frame if one is due at this time, or if `force` and the cloth has moved since the last one.
     void write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force);
     int frame_count() const { return trajectory_ ? trajectory_->frame_count() : 0; }
 
     /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
     void conclude(RunStatus status, Phase& phase, const RunPlan& plan, const BodyQuery* query,
-                  const RunCounters& counters, const Profile& profile, double residual, double wall_seconds,
+                  const RunCounters& counters, const StabilityUse& stability, const Profile& profile, double residual, double wall_seconds,
                   const std::string& message);
 
 private:

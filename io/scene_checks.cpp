@@ -63,6 +63,9 @@ void check_until(const Scene& scene)
     const std::string& until = scene.solver.until;
     constexpr double limit = 1e6;
     double seconds = 0;
+    if (until != "equilibrium" && scene.solver.integrator == "static")
+        throw InputError(scene.place("solver.until"), "`" + until + "`",
+                         "\"equilibrium\", as solver.integrator is static and knows no time");
     if (until == "equilibrium" || (parse_number(until, seconds) && seconds > 0 && seconds <= limit)) return;
     const std::vector<std::string> words{"equilibrium"};
     throw InputError(scene.place("solver.until"), "`" + until + "`",

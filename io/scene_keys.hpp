@@ -72,9 +72,15 @@
     WORD(source, "", "", "where the values come from")
 
 #define SOLVER_KEYS(KEY, WORD, VEC3)                                                                             \
-    WORD(integrator, "implicit_euler", "implicit_euler", "how time is advanced")                          \
+    WORD(integrator, "implicit_euler",                                                                           \
+         "implicit_euler|bdf2|implicit_midpoint|symplectic_euler|central_difference|velocity_verlet|rk4|static", \
+         "how time is advanced while cloth drapes; static: not at all, straight to the shape at rest")           \
     WORD(until, "equilibrium", "", "\"equilibrium\", or the simulated seconds to run")                           \
     KEY(double, step, 0.02, "s", 1e-6, 1, "time step; it shrinks by itself where a step fails")                  \
+    WORD(unstable_step, "shrink", "shrink|refuse",                                                               \
+         "what happens to a step above an explicit integrator's stability limit: divided, or an error")          \
+    KEY(bool, adaptive, false, "1", 0, 1, "steps, of at most solver.step, follow the integrator's estimate of its error") \
+    KEY(double, step_error, 1e-4, "m", 1e-12, 1, "error of one step that adaptive steps allow")                  \
     KEY(double, tolerance, 1e-3, "1", 1e-9, 1, "equilibrium: net force over gravity force on free vertices")     \
     KEY(double, energy_tolerance, 1e-4, "1", 0, 1, "sewing: relative change of elastic energy between steps at which it may stop") \
     KEY(double, max_time, 30, "s", 0, 1e6, "simulated time after which a run to equilibrium gives up")           \

@@ -99,6 +99,9 @@ std::string summary_json(const RunSummary& summary)
     json["linear_iterations"] = count(summary.linear_iterations);
     json["simulated_s"] = number(summary.simulated_s);
     json["wall_s"] = number(summary.wall_s);
+    json["stability"] = {{"asked_step_s", number(summary.stability.asked)},
+                         {"limit_s", number(summary.stability.limit)},
+                         {"taken_step_s", number(summary.stability.taken)}};
     json["phases"] = phases_json(summary);
     json["kernels"] = kernels_json(summary);
     json["active"] = summary.active;

@@ -32,6 +32,14 @@ struct PanelFit {
     double boundary_error;   ///< Relative change of boundary length.
 };
 
+/// How an explicit integrator's steps stood to its stability limit; NaN: no limit.
+struct StabilityUse {
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    double asked = unknown;   ///< solver.step [s]
+    double limit = unknown;   ///< The lowest that was met [s].
+    double taken = unknown;   ///< The shortest step [s].
+};
+
 /// What summary.json says. A number that is not known is NaN or negative (counts) and becomes null.
 struct RunSummary {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -48,6 +56,7 @@ struct RunSummary {
     std::vector<SkippedPart> skipped;
     std::vector<std::string> warnings;
     std::int64_t peak_memory_bytes = -1;
+    StabilityUse stability;
     double residual = unknown;                             ///< Relative force residual at the end.
     struct Energy {
         double membrane = unknown, bending = unknown, gravity = unknown, contact = unknown, kinetic = unknown;

@@ -55,12 +55,28 @@ bool nearly_balanced(const EquilibriumOptions& options, const DrapeProgress& pro
            (progress.hold <= 0 && progress.residual <= progress.switch_residual);
 }
 
+// The integrator of the options, or one that is made here.
+Integrator& chosen(const EquilibriumOptions& options, Phase& phase, std::unique_ptr<Integrator>& own)
+{
+    if (options.integrator) return *options.integrator;
+    own = make_integrator("implicit_euler", phase);
+    return *own;
+}
+
+StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
+{
+    return {progress.time,     control.taken(),       control.report().iterations, control.report().linear_iterations,
+            progress.residual, control.stable_step(), control.shortest()};
+}
+
 }  // namespace
 
 PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
                               const AfterStep& after_step)
 {
-    StepControl control(phase, options.step);
+    std::unique_ptr<Integrator> own;
+    Integrator& integrator = chosen(options, phase, own);
+    StepControl control(phase, integrator, options.step);
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = std::min(options.newton_iterations, 3);
@@ -69,24 +85,24 @@ PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, D
         if (nearly_balanced(options, progress)) {
             const PhaseEnd end = relax(phase, options, progress, after_step);
             if (end != PhaseEnd::time_limit) return end;
+            integrator.restart();
             progress.switch_residual = std::max(0.5 * progress.switch_residual, 2 * options.tolerance);
             progress.hold = steps_between;
         }
         if (progress.time >= options.max_time) return PhaseEnd::time_limit;
-        progress.time += control.advance(options.step, newton, false);
+        progress.time += control.advance(options.step.longest, newton, false);
         progress.dt = control.dt();
         progress.residual = phase.newton().static_residual();
         --progress.hold;
-        if (!after_step({progress.time, control.taken(), control.report().iterations,
-                         control.report().linear_iterations, progress.residual}))
-            return PhaseEnd::stopped;
+        if (!after_step(event_of(control, progress))) return PhaseEnd::stopped;
     }
 }
 
 PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double until, double frame_interval,
                      DrapeProgress& progress, const AfterStep& after_step)
 {
-    StepControl control(phase, options.step);
+    std::unique_ptr<Integrator> own;
+    StepControl control(phase, chosen(options, phase, own), options.step);
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = options.newton_iterations;
@@ -95,11 +111,10 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
     while (progress.time < until - 1e-9) {
         // Steps end on frame times, so that frames show computed states and not interpolated ones.
         const double frame_end = frame_interval * (std::floor(progress.time / frame_interval + 1e-6) + 1);
-        const double dt = control.advance(std::min(frame_end, until) - progress.time, newton, true);
-        progress.time += dt;
+        progress.time += control.advance(std::min(frame_end, until) - progress.time, newton, true);
         progress.dt = control.dt();
-        const StepEvent event{progress.time, dt, control.report().iterations, control.report().linear_iterations,
-                              phase.newton().static_residual()};
+        StepEvent event = event_of(control, progress);
+        event.residual = phase.newton().static_residual();
         if (!after_step(event)) return PhaseEnd::stopped;
     }
     return PhaseEnd::reached;

@@ -4,7 +4,8 @@
 namespace selvage {
 
 struct EquilibriumOptions {
-    double step = 0.02;          ///< [s]
+    StepOptions step;
+    Integrator* integrator = nullptr;   ///< What moves the cloth; null: implicit Euler.
     double tolerance = 1e-3;     ///< Relative static force residual to reach [1].
     double max_time = 30;        ///< Simulated time after which to give up [s].
     int newton_iterations = 12;
@@ -19,7 +20,7 @@ struct DrapeProgress {
     double dt = 0;               ///< Of the next step; 0: the longest [s].
 };
 
-/// Lets the cloth fall with implicit steps, which are dissipative, and finishes with Newton's method on the static
+/// Lets the cloth fall, by default with implicit steps, which are dissipative, and finishes with Newton's method on the static
 /// energy as soon as the forces are nearly balanced.
 PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
                               const AfterStep& after_step);

@@ -29,7 +29,7 @@ public:
         multigrid_.emplace(pattern_, pinned, transfers);
     }
 
-    void assemble(const State& state, double inertia) override
+    void assemble(const State& state, double inertia, bool solves) override
     {
         const assemble_args args{pattern_.row_begin.data(), pattern_.column.data(), matrix_.block.data(),
                                  state.mass.data(), state.inv_mass.data(),
@@ -49,10 +49,22 @@ public:
             assemble_finish(row, &args);
         });
         state_ = &state;
-        if (multigrid_)
+        if (solves && multigrid_)
             multigrid_->build(matrix_);
-        else
+        else if (solves)
             jacobi_.build(matrix_);
+    }
+
+    void multiply(const double* x, double* y) override
+    {
+        const int n = pattern_.rows(), stride = stride_;
+        for_each_item(n, [=, p = p_.data()](int v) {
+            for (int c = 0; c < 3; ++c) p[3 * v + c] = linear(x[c * stride + v]);
+        });
+        multiply(p_, q_);
+        for_each_item(n, [=, q = q_.data()](int v) {
+            for (int c = 0; c < 3; ++c) y[c * stride + v] = double(q[3 * v + c]);
+        });
     }
 
     LinearResult solve(const double* b, double tolerance, double* x) override

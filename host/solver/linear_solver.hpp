@@ -46,7 +46,10 @@ public:
     virtual ~LinearSolver() = default;
     /// Gathers the stiffness slots of the state; adds inertia * mass to the diagonal. @param inertia 1/dt^2 [1/s^2]
     /// A plate's hinge slopes and couplings stay in the state, which must outlive the solves that follow.
-    virtual void assemble(const State& state, double inertia) = 0;
+    /// @param solves  false: only products are wanted, so that the preconditioner need not be made
+    virtual void assemble(const State& state, double inertia, bool solves = true) = 0;
+    /// y = A x with the assembled matrix, in its precision. @param x, y  three planes of state.size.vertex_stride
+    virtual void multiply(const double* x, double* y) = 0;
     /// Solves A x = b to |b - A x| <= tolerance |b|.
     /// @param b  three planes of state.size.vertex_stride; pinned vertices must hold 0
     /// @param x  like b; overwritten

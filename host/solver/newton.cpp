@@ -21,11 +21,9 @@ double dot3(const State& state, const std::vector<real>& a, const std::vector<re
 }  // namespace
 
 Newton::Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, Profile& profile)
-    : state_(state), params_(params), linear_(linear), contact_(contact), profile_(profile)
+    : state_(state), params_(params), linear_(linear), contact_(contact), profile_(profile), terms_(state, params, profile)
 {
-    for (const Term& term : all_terms())
-        if (term.is_active(params)) (term.nature == Nature::conservative ? conservative_ : dissipative_).push_back(&term);
-    for (std::vector<real>* v : {&start_, &target_, &base_, &downhill_, &direction_}) v->assign(state.pos.size(), 0);
+    for (std::vector<real>* v : {&start_, &origin_, &target_, &base_, &downhill_, &direction_}) v->assign(state.pos.size(), 0);
     const double gravity = std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y,
                                       params.gravity.acceleration_z);
     // Without gravity forces are measured against the weight that the cloth would have on earth.
@@ -37,13 +35,9 @@ Newton::Newton(State& state, const Params& params, LinearSolver& linear, Contact
 
 double Newton::objective()
 {
-    double total = 0;
-    for (const Term* term : conservative_)
-        total += profile_.timed(term->name, term->item_count(state_.size),
-                                std::int64_t(term->item_count(state_.size)) * term->bytes_per_item,
-                                [&] { return term->energy(state_, params_); });
+    double total = terms_.energy();
     if (inertia_ == 0) return total;
-    for (const Term* term : dissipative_) total += dt_ * term->energy(state_, params_);
+    total += span_ * terms_.dissipation();
     const int vs = state_.size.vertex_stride;
     return total + 0.5 * inertia_ * sum_items(state_.size.vertex_count, [this, vs](int v) {
         double squared = 0;
@@ -55,17 +49,10 @@ double Newton::objective()
     });
 }
 
-// downhill = f - m (x - x^) / dt^2, zero at pinned vertices.
+// downhill = f - m (x - target) / h^2, zero at pinned vertices.
 void Newton::evaluate_gradient()
 {
-    clear_forces(state_);
-    for (const Term* term : conservative_)
-        profile_.timed(term->name, term->item_count(state_.size),
-                       std::int64_t(term->item_count(state_.size)) * term->bytes_per_item,
-                       [&] { term->add_force(state_, params_); });
-    if (inertia_ > 0)
-        for (const Term* term : dissipative_) term->add_force(state_, params_);
-    profile_.timed("gather_forces", state_.size.vertex_count, 0, [&] { gather_forces(state_); });
+    terms_.evaluate_forces(inertia_ > 0);
     const int vs = state_.size.vertex_stride;
     for_each_item(state_.size.vertex_count, [this, vs](int v) {
         for (int c = 0; c < 3; ++c) {
@@ -80,18 +67,8 @@ double Newton::gradient_norm() const { return std::sqrt(dot3(state_, downhill_, 
 
 void Newton::assemble(bool projected)
 {
-    const auto add = [&](const Term* term) {
-        profile_.timed(std::string(term->name) + "_stiffness", term->item_count(state_.size), 0,
-                       [&] { term->add_stiffness(state_, params_, projected); });
-    };
-    clear_stiffness(state_);
-    if (inertia_ > 0 && !dissipative_.empty()) {
-        for (const Term* term : dissipative_) add(term);
-        // d2/dx2 of dt R(v) is 1/dt of d2R/dv2; dissipative terms act on vertices only.
-        for_each_item(int(state_.vertex_stiffness.size()),
-                      [k = state_.vertex_stiffness.data(), scale = block_real(1 / dt_)](int i) { k[i] *= scale; });
-    }
-    for (const Term* term : conservative_) add(term);
+    // d2/dx2 of h R(v) is 1/h of d2R/dv2.
+    terms_.evaluate_stiffness(projected, inertia_ > 0 ? 1 / span_ : 0);
     profile_.timed("assemble", state_.size.vertex_count, 0, [&] { linear_.assemble(state_, inertia_); });
 }
 
@@ -116,10 +93,10 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
 // Moves to base + fraction * direction.
 void Newton::place(double fraction)
 {
-    const double inverse_dt = inertia_ > 0 ? 1 / dt_ : 0;
+    const double inverse_span = inertia_ > 0 ? 1 / span_ : 0;
     for_each_item(int(state_.pos.size()), [=, this](int i) {
         state_.pos[i] = base_[i] + fraction * direction_[i];
-        state_.vel[i] = inverse_dt * (state_.pos[i] - start_[i]);
+        state_.vel[i] = inverse_span * (state_.pos[i] - origin_[i]);
     });
 }
 
@@ -202,31 +179,40 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
         if (report.converged || report.iterations == options.max_iterations) return report;
         const double slope = search_direction(options, report);
         // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the force.
-        report.converged = largest_move() <= options.still * dt_;
+        report.converged = largest_move() <= options.still * span_;
         report.stuck = !std::isfinite(slope) || !search_line(slope, options);
         if (report.stuck || report.converged) return report;
     }
 }
 
+NewtonReport Newton::minimise(double span, const std::vector<real>& origin, const std::vector<real>& target,
+                              const NewtonOptions& options)
+{
+    span_ = span;
+    inertia_ = 1 / (span * span);
+    start_ = state_.pos;
+    origin_ = origin;
+    target_ = target;
+    for_each_item(int(state_.vel.size()),
+                  [this, inverse = 1 / span](int i) { state_.vel[i] = inverse * (start_[i] - origin_[i]); });
+    guess_step(options);
+    return iterate(options, false);
+}
+
 NewtonReport Newton::step(double dt, const NewtonOptions& options)
 {
-    dt_ = dt;
-    inertia_ = 1 / (dt * dt);
-    start_ = state_.pos;
-    for_each_item(int(start_.size()),
-                  [this, dt](int i) { target_[i] = start_[i] + dt * state_.vel[i]; });
-    for_each_item(int(state_.vel.size()), [v = state_.vel.data()](int i) { v[i] = 0; });
-    guess_step(options);
-    const NewtonReport report = iterate(options, false);
+    base_ = state_.pos;
+    for_each_item(int(base_.size()), [this, dt](int i) { direction_[i] = base_[i] + dt * state_.vel[i]; });
+    const NewtonReport report = minimise(dt, base_, direction_, options);
     settle_friction(state_, params_);
     return report;
 }
 
 NewtonReport Newton::relax(const NewtonOptions& options)
 {
-    dt_ = 0;
+    span_ = 0;
     inertia_ = 0;
-    start_ = state_.pos;
+    start_ = origin_ = state_.pos;
     std::fill(state_.vel.begin(), state_.vel.end(), 0);
     return iterate(options, true);
 }
@@ -236,30 +222,6 @@ double Newton::static_residual()
     inertia_ = 0;
     evaluate_gradient();
     return gradient_norm() / force_scale_;
-}
-
-double Newton::energy_of(std::string_view name) const
-{
-    for (const Term* term : conservative_)
-        if (term->name == name) return term->energy(state_, params_);
-    return 0;
-}
-
-double Newton::potential_energy() const
-{
-    double total = 0;
-    for (const Term* term : conservative_) total += term->energy(state_, params_);
-    return total;
-}
-
-double Newton::kinetic_energy() const
-{
-    const int vs = state_.size.vertex_stride;
-    return 0.5 * sum_items(state_.size.vertex_count, [this, vs](int v) {
-        double squared = 0;
-        for (int c = 0; c < 3; ++c) squared += state_.vel[c * vs + v] * state_.vel[c * vs + v];
-        return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
-    });
 }
 
 }  // namespace selvage

@@ -1,12 +1,10 @@
 #pragma once
 #include <vector>
 
+#include "host/solver/active_terms.hpp"
 #include "host/solver/body_contact.hpp"
 #include "host/solver/linear_solver.hpp"
 #include "host/solver/params.hpp"
-#include "host/solver/profile.hpp"
-#include "host/solver/state.hpp"
-#include "host/solver/terms.hpp"
 
 namespace selvage {
 
@@ -28,15 +26,21 @@ struct NewtonReport {
     double residual = 0;               ///< Gradient norm over the force scale, at the end [1].
 };
 
-/// Minimises the objective of an implicit Euler step, or the static energy, by Newton's method with a line search:
-///     Phi(x) = sum_i m_i |x_i - x^_i|^2 / (2 dt^2) + E(x) + dt R((x - x_n) / dt),   x^ = x_n + dt v_n
-/// whose stationary point is the step of D11 solved to the end instead of once linearised.
+/// Minimises the objective of an implicit step, or the static energy, by Newton's method with a line search:
+///     Phi(x) = sum_i m_i |x_i - target_i|^2 / (2 h^2) + E(x) + h R((x - origin) / h)
+/// With velocity v = (x - origin) / h its stationary point solves m (x - target) / h^2 = f(x, v). Implicit Euler is
+/// h = dt, origin = x_n, target = x_n + dt v_n: the step of D11 solved to the end instead of once linearised.
 /// Source: Martin and others 2011, eq. 7; Gast and others 2015 for the line search.
 class Newton {
 public:
     /// @param contact may be null: no bodies. All references must outlive this object.
     Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, Profile& profile);
 
+    /// Moves state.pos to the minimum and state.vel to (x - origin) / span; friction anchors stay as they are.
+    /// @param span    h of the objective [s], > 0
+    /// @param origin  planes like pos [m]; at pinned vertices it must equal pos, as must target
+    NewtonReport minimise(double span, const std::vector<real>& origin, const std::vector<real>& target,
+                          const NewtonOptions& options);
     /// One implicit Euler step: state.pos and state.vel move from t to t + dt. @param dt [s], > 0
     NewtonReport step(double dt, const NewtonOptions& options);
     /// Iterations on the static energy; state.vel becomes zero, friction settles after each.
@@ -46,10 +50,11 @@ public:
     double static_residual();
     double force_scale() const { return force_scale_; }   ///< [N]
 
-    double energy_of(std::string_view term) const;   ///< Energy of one term at the present state [J]; 0 if inactive.
+    ActiveTerms& terms() { return terms_; }
+    double energy_of(std::string_view term) const { return terms_.energy_of(term); }   ///< [J]; 0 if inactive.
     double bending_energy() const { return energy_of("bending") + energy_of("plate"); }   ///< Of whichever model [J].
-    double potential_energy() const;                 ///< Of all conservative terms [J].
-    double kinetic_energy() const;                   ///< [J]
+    double potential_energy() const { return terms_.potential_energy(); }              ///< [J]
+    double kinetic_energy() const { return terms_.kinetic_energy(); }                  ///< [J]
 
 private:
     double objective();
@@ -70,11 +75,11 @@ private:
     LinearSolver& linear_;
     ContactField* contact_;
     Profile& profile_;
-    std::vector<const Term*> conservative_, dissipative_;
+    ActiveTerms terms_;
     double force_scale_ = 0;
-    double inertia_ = 0;   ///< 1/dt^2; 0 for the static energy [1/s^2].
-    double dt_ = 0;
-    std::vector<real> start_, target_, base_, downhill_, direction_;
+    double inertia_ = 0;   ///< 1/h^2; 0 for the static energy [1/s^2].
+    double span_ = 0;      ///< h [s]
+    std::vector<real> start_, origin_, target_, base_, downhill_, direction_;
 };
 
 }  // namespace selvage

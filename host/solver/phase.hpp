@@ -41,6 +41,7 @@ public:
     Params& params() { return options_.params; }
     const Params& params() const { return options_.params; }
     Newton& newton() { return *newton_; }
+    LinearSolver& linear() { return *linear_; }
     ContactField* contact() { return contact_.get(); }
     const ContactField* contact() const { return contact_.get(); }
     std::vector<Vec3> positions() const { return cloth_vectors(topology_, state_.size, state_.pos); }

@@ -63,7 +63,8 @@ void note_step(Phase& phase, SewingProgress& progress)
 
 PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progress, const AfterStep& after_step)
 {
-    StepControl control(phase, options.step);
+    const std::unique_ptr<Integrator> euler = make_integrator("implicit_euler", phase);
+    StepControl control(phase, *euler, {.longest = options.step});
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = 3;   // on the way to a closed seam accuracy in time is worth nothing
@@ -88,7 +89,8 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
     phase.params().plate.scale *= press_bending;
     phase.params().friction.scale = 0;
     phase.params().gravity = {};
-    StepControl control(phase, step);
+    const std::unique_ptr<Integrator> euler = make_integrator("implicit_euler", phase);
+    StepControl control(phase, *euler, {.longest = step});
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = 2;

@@ -5,42 +5,136 @@
 
 #include <fmt/format.h>
 
+#include "host/solver/integrators/vector_tools.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
+namespace {
+
+constexpr double stability_margin = 0.9;
+constexpr double least_fraction = 1.0 / 1024;   // of the longest step: below it a run has diverged
+constexpr double most_energy = 1e3;             // times what the motion had or gravity can give in a step
+
+}  // namespace
+
+UnstableStepError::UnstableStepError(double asked, double stable)
+    : std::runtime_error(fmt::format("a step of {:.3g} s is above the stability limit of {:.3g} s", asked, stable)),
+      limit(stable)
+{
+}
+
+void StepControl::keep(Saved& saved)
+{
+    const State& state = phase_.state();
+    saved.pos = state.pos;
+    saved.vel = state.vel;
+    saved.anchor = state.friction_anchor;
+    saved.limit = state.friction_limit;
+    const auto arrays = integrator_.history();
+    saved.history.resize(arrays.size());
+    for (std::size_t k = 0; k < arrays.size(); ++k) saved.history[k] = *arrays[k];
+}
+
+void StepControl::restore(const Saved& saved)
+{
+    State& state = phase_.state();
+    state.pos = saved.pos;
+    state.vel = saved.vel;
+    state.friction_anchor = saved.anchor;
+    state.friction_limit = saved.limit;
+    const auto arrays = integrator_.history();
+    for (std::size_t k = 0; k < arrays.size(); ++k) *arrays[k] = saved.history[k];
+}
+
+// The length of the next step when `left` seconds are to be covered; an explicit scheme divides them evenly.
+double StepControl::next_step(double left)
+{
+    if (!integrator_.info().is_explicit) return std::min(dt_, left);
+    limit_ = integrator_.stable_step();
+    if (options_.unstable == UnstableStep::refuse && options_.longest > limit_)
+        throw UnstableStepError(options_.longest, limit_);
+    const double margin = options_.unstable == UnstableStep::refuse ? 1 : stability_margin;
+    return left / std::ceil(left / std::min(dt_, margin * limit_) - 1e-9);
+}
 
 bool StepControl::attempt(double dt, const NewtonOptions& options, bool accurate)
 {
-    report_ = phase_.newton().step(dt, options);
-    if (!std::isfinite(report_.residual)) return false;
+    report_ = integrator_.step(dt, options);
+    if (!std::isfinite(report_.residual) || !is_finite(phase_.state())) return false;
     if (report_.stuck && report_.iterations == 0 && report_.residual > 10 * options.tolerance) return false;
-    if (accurate && !report_.converged && !report_.stuck) return false;
-    return !phase_.contact() || !phase_.contact()->crossed(phase_.state(), pos_);
+    return !accurate || report_.converged || report_.stuck;
+}
+
+// Fits the next step to the estimated error of the one just taken, which goes with a known power of its length.
+bool StepControl::too_inaccurate(double dt)
+{
+    const double error = std::max(integrator_.error_estimate(), 1e-300);
+    const double fit = 0.9 * std::pow(options_.error / error, 1.0 / integrator_.info().error_power);
+    if (error > options_.error && dt > 2 * least_fraction * options_.longest) {
+        dt_ = dt * std::clamp(fit, 0.2, 0.9);
+        return true;
+    }
+    const double next = dt * std::clamp(fit, 0.2, 2.0);
+    // A step that was cut short for another reason says nothing against longer ones.
+    dt_ = std::min(options_.longest, dt < 0.999 * dt_ ? std::max(dt_, next) : next);
+    return false;
+}
+
+// Explicit steps that burst gain energy from nowhere; no vertex may have passed into a body.
+bool StepControl::ends_well(double span, double kinetic_before, double potential_before)
+{
+    if (phase_.contact() && phase_.contact()->crossed(phase_.state(), start_.pos)) return false;
+    if (!integrator_.info().is_explicit) return true;
+    const ActiveTerms& terms = phase_.newton().terms();
+    const double kinetic = terms.kinetic_energy(), potential = terms.potential_energy();
+    const State& s = phase_.state();
+    const double mass = sum_items(s.size.vertex_count, [&s](int v) { return s.inv_mass[v] == 0 ? 0.0 : s.mass[v]; });
+    const double falling = 0.5 * mass * std::pow(9.81 * span, 2);
+    const double released = std::max(0.0, potential_before - potential);
+    return kinetic + potential - kinetic_before - potential_before <= most_energy * (kinetic_before + released + falling);
+}
+
+// After a failure.
+void StepControl::shrink(double dt)
+{
+    ++retries_;
+    dt_ = 0.5 * dt;
+    if (dt_ < least_fraction * std::min(options_.longest, limit_))
+        throw DivergenceError(fmt::format("no step down to {:.3g} s succeeds (solver.step is {:.3g} s); residual {:.3g}",
+                                          dt_, options_.longest, report_.residual));
 }
 
 double StepControl::advance(double room, const NewtonOptions& options, bool accurate)
 {
-    State& state = phase_.state();
-    pos_ = state.pos;
-    vel_ = state.vel;
-    anchor_ = state.friction_anchor;
-    limit_ = state.friction_limit;
+    const bool fills = integrator_.info().is_explicit;
+    const bool adaptive = options_.adaptive && integrator_.info().has_error_estimate();
+    const ActiveTerms& terms = phase_.newton().terms();
+    keep(start_);
+    const double kinetic = fills ? terms.kinetic_energy() : 0, potential = fills ? terms.potential_energy() : 0;
+    const double span = fills ? std::min(options_.longest, room) : room;
+    double done = 0;
+    shortest_ = span;
     for (;;) {
-        const double dt = std::min(dt_, room);
-        if (attempt(dt, options, accurate)) {
-            dt_ = std::min(longest_, 1.5 * dt_);
-            taken_ = dt;
-            return dt;
+        const double dt = next_step(span - done);
+        if (adaptive && done > 0) keep(last_);
+        const bool last = !fills || span - done - dt <= 1e-9 * span;
+        if (!attempt(dt, options, accurate) || (last && !ends_well(span, kinetic, potential))) {
+            restore(start_);
+            done = 0;
+            shrink(dt);
+            continue;
         }
-        ++retries_;
-        state.pos = pos_;
-        state.vel = vel_;
-        state.friction_anchor = anchor_;
-        state.friction_limit = limit_;
-        dt_ = 0.5 * dt;
-        if (dt_ < longest_ / 1024)
-            throw DivergenceError(fmt::format("no step down to {:.3g} s succeeds (solver.step is {:.3g} s); residual {:.3g}",
-                                              dt_, longest_, report_.residual));
+        if (adaptive && too_inaccurate(dt)) {
+            ++retries_;
+            restore(done > 0 ? last_ : start_);
+            continue;
+        }
+        if (!adaptive) dt_ = std::min(options_.longest, 1.5 * dt_);
+        done += dt;
+        shortest_ = std::min(shortest_, dt);
+        if (!last) continue;
+        taken_ = fills ? span : dt;
+        return taken_;
     }
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 #include <functional>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
+#include "host/solver/integrator.hpp"
 #include "host/solver/phase.hpp"
 
 namespace selvage {
@@ -13,6 +16,8 @@ struct StepEvent {
     int newton_iterations = 0;
     int linear_iterations = 0;
     double residual = 0;          ///< Relative static force residual [1]; while sewing: largest gap over the closed gap.
+    double stable_step = std::numeric_limits<double>::infinity();   ///< Limit of an explicit scheme [s].
+    double shortest = 0;          ///< Shortest of the steps that dt was made of [s]; 0: one step.
 };
 
 /// Called after every accepted step; false ends the phase (an interrupt, a limit on wall time).
@@ -20,16 +25,38 @@ using AfterStep = std::function<bool(const StepEvent&)>;
 
 enum class PhaseEnd { reached, time_limit, stopped };
 
-/// Takes implicit steps, and retries a step that fails with half its length.
+/// What happens to a step above an explicit scheme's stability limit.
+enum class UnstableStep { shrink, refuse };
+
+struct StepOptions {
+    double longest = 0.02;        ///< Step that is taken while nothing fails [s].
+    bool adaptive = false;        ///< Steps follow the integrator's estimate of its error, if it has one (A8).
+    double error = 1e-4;          ///< Error of one step that adaptive steps allow [m].
+    UnstableStep unstable = UnstableStep::shrink;
+};
+
+/// Thrown where a step above the stability limit is to be refused.
+class UnstableStepError : public std::runtime_error {
+public:
+    UnstableStepError(double asked, double limit);
+    double limit;                 ///< [s]
+};
+
+/// Takes steps of an integrator, and retries one that fails with half its length. Explicit schemes fill a step with
+/// as many shorter ones as their stability asks for.
 class StepControl {
 public:
-    /// @param longest  step that is taken while nothing fails [s]
-    StepControl(Phase& phase, double longest) : phase_(phase), longest_(longest), dt_(longest) {}
+    /// The references must outlive this object.
+    StepControl(Phase& phase, Integrator& integrator, const StepOptions& options)
+        : phase_(phase), integrator_(integrator), options_(options), dt_(options.longest)
+    {
+    }
 
     /// Takes one step of at most `room` seconds.
     /// @param accurate  a step whose Newton iterations do not reach their tolerance counts as failed
     /// @returns the length of the accepted step [s]
     /// @throws DivergenceError when not even a thousandth of the longest step succeeds; the last good state is kept
+    /// @throws UnstableStepError if the longest step is unstable and that is to be refused
     double advance(double room, const NewtonOptions& options, bool accurate);
 
     const NewtonReport& report() const { return report_; }   ///< Of the accepted step.
@@ -37,16 +64,32 @@ public:
     double taken() const { return taken_; }    ///< Of the last accepted step [s].
     void set_dt(double dt) { dt_ = dt; }
     int retries() const { return retries_; }
+    double stable_step() const { return limit_; }    ///< At the last step [s].
+    double shortest() const { return shortest_; }    ///< Of the steps that the last accepted one was made of [s].
 
 private:
+    struct Saved {
+        std::vector<real> pos, vel, anchor, limit;
+        std::vector<std::vector<real>> history;
+    };
+
+    void keep(Saved& saved);
+    void restore(const Saved& saved);
+    double next_step(double left);
     bool attempt(double dt, const NewtonOptions& options, bool accurate);
+    bool too_inaccurate(double dt);
+    bool ends_well(double span, double kinetic_before, double potential_before);
+    void shrink(double dt);
 
     Phase& phase_;
-    double longest_, dt_;
-    double taken_ = 0;
+    Integrator& integrator_;
+    StepOptions options_;
+    double dt_;
+    double taken_ = 0, shortest_ = 0;
+    double limit_ = std::numeric_limits<double>::infinity();
     int retries_ = 0;
     NewtonReport report_;
-    std::vector<real> pos_, vel_, anchor_, limit_;
+    Saved start_, last_;
 };
 
 }  // namespace selvage

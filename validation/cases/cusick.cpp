@@ -65,7 +65,7 @@ std::vector<Vec3> drape_to_rest(const Scene& scene, const SceneModel& model)
     Profile profile;
     Phase phase(model.model, options, &query, profile, model.model.cloth.positions, {});
     EquilibriumOptions until;
-    until.step = scene.solver.step;
+    until.step.longest = scene.solver.step;
     until.tolerance = scene.solver.tolerance;
     until.max_time = scene.solver.max_time;
     until.newton_iterations = scene.solver.newton_iterations;

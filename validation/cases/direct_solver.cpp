@@ -13,32 +13,41 @@ class DirectSolver final : public LinearSolver {
 public:
     explicit DirectSolver(bool plane) : plane_(plane) {}
 
-    void assemble(const State& state, double inertia) override
+    void assemble(const State& state, double inertia, bool) override
     {
         const int n = state.size.vertex_count;
         stride_ = state.size.vertex_stride;
         free_.clear();
         for (int v = 0; v < n; ++v)
             for (int c = 0; c < (plane_ ? 2 : 3) && state.inv_mass[v] > 0; ++c) free_.push_back(3 * v + c);
-        SparseMatrix matrix = submatrix(slot_stiffness(state, !state.hinge_slope.empty()), free_);
-        for (int i = 0; i < int(free_.size()); ++i) matrix.coeffRef(i, i) += inertia * state.mass[free_[i] / 3];
-        factorise(matrix);
+        matrix_ = submatrix(slot_stiffness(state, !state.hinge_slope.empty()), free_);
+        for (int i = 0; i < int(free_.size()); ++i) matrix_.coeffRef(i, i) += inertia * state.mass[free_[i] / 3];
+        factorise(matrix_);
     }
 
     LinearResult solve(const double* b, double, double* x) override
     {
-        Eigen::VectorXd rhs(free_.size());
-        for (int i = 0; i < int(free_.size()); ++i) rhs[i] = b[free_[i] % 3 * stride_ + free_[i] / 3];
-        const Eigen::VectorXd solution = factor_.solve(rhs);
-        std::fill(x, x + 3 * std::size_t(stride_), 0.0);
-        for (int i = 0; i < int(free_.size()); ++i) x[free_[i] % 3 * stride_ + free_[i] / 3] = solution[i];
+        scatter(factor_.solve(gathered(b)), x);
         return {1, 0, false};
     }
+
+    void multiply(const double* x, double* y) override { scatter(matrix_ * gathered(x), y); }
 
     std::size_t bytes() const override { return 0; }
     void run(LinearOperation) override {}
 
 private:
+    Eigen::VectorXd gathered(const double* planes) const
+    {
+        Eigen::VectorXd values(free_.size());
+        for (int i = 0; i < int(free_.size()); ++i) values[i] = planes[free_[i] % 3 * stride_ + free_[i] / 3];
+        return values;
+    }
+    void scatter(const Eigen::VectorXd& values, double* planes) const
+    {
+        std::fill(planes, planes + 3 * std::size_t(stride_), 0.0);
+        for (int i = 0; i < int(free_.size()); ++i) planes[free_[i] % 3 * stride_ + free_[i] / 3] = values[i];
+    }
     void factorise(const SparseMatrix& matrix)
     {
         if (matrix.nonZeros() != pattern_size_) factor_.analyzePattern(matrix);
@@ -56,6 +65,7 @@ private:
     int stride_ = 0;
     Eigen::Index pattern_size_ = -1;
     std::vector<int> free_;
+    SparseMatrix matrix_;
     Eigen::SimplicialLLT<SparseMatrix> factor_;
 };
 

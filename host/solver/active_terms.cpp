@@ -1,0 +1,89 @@
+#include "host/solver/active_terms.hpp"
+
+#include "host/solver/launch.hpp"
+
+namespace selvage {
+
+ActiveTerms::ActiveTerms(State& state, const Params& params, Profile& profile)
+    : state_(state), params_(params), profile_(profile)
+{
+    for (const Term& term : all_terms())
+        if (term.is_active(params)) (term.nature == Nature::conservative ? conservative_ : dissipative_).push_back(&term);
+}
+
+void ActiveTerms::evaluate_forces(bool dissipative)
+{
+    clear_forces(state_);
+    for (const Term* term : conservative_)
+        profile_.timed(term->name, term->item_count(state_.size),
+                       std::int64_t(term->item_count(state_.size)) * term->bytes_per_item,
+                       [&] { term->add_force(state_, params_); });
+    if (dissipative)
+        for (const Term* term : dissipative_) term->add_force(state_, params_);
+    profile_.timed("gather_forces", state_.size.vertex_count, 0, [&] { gather_forces(state_); });
+}
+
+void ActiveTerms::evaluate_stiffness(bool projected, double dissipative_scale)
+{
+    const auto add = [&](const Term* term) {
+        profile_.timed(std::string(term->name) + "_stiffness", term->item_count(state_.size), 0,
+                       [&] { term->add_stiffness(state_, params_, projected); });
+    };
+    clear_stiffness(state_);
+    if (dissipative_scale > 0 && !dissipative_.empty()) {
+        for (const Term* term : dissipative_) add(term);
+        // Dissipative terms act on vertices only.
+        for_each_item(int(state_.vertex_stiffness.size()),
+                      [k = state_.vertex_stiffness.data(), scale = block_real(dissipative_scale)](int i) { k[i] *= scale; });
+    }
+    for (const Term* term : conservative_) add(term);
+}
+
+void ActiveTerms::evaluate_drag()
+{
+    clear_stiffness(state_);
+    for (const Term* term : dissipative_) term->add_stiffness(state_, params_, false);
+}
+
+double ActiveTerms::energy()
+{
+    double total = 0;
+    for (const Term* term : conservative_)
+        total += profile_.timed(term->name, term->item_count(state_.size),
+                                std::int64_t(term->item_count(state_.size)) * term->bytes_per_item,
+                                [&] { return term->energy(state_, params_); });
+    return total;
+}
+
+double ActiveTerms::potential_energy() const
+{
+    double total = 0;
+    for (const Term* term : conservative_) total += term->energy(state_, params_);
+    return total;
+}
+
+double ActiveTerms::dissipation() const
+{
+    double total = 0;
+    for (const Term* term : dissipative_) total += term->energy(state_, params_);
+    return total;
+}
+
+double ActiveTerms::kinetic_energy() const
+{
+    const int vs = state_.size.vertex_stride;
+    return 0.5 * sum_items(state_.size.vertex_count, [this, vs](int v) {
+        double squared = 0;
+        for (int c = 0; c < 3; ++c) squared += state_.vel[c * vs + v] * state_.vel[c * vs + v];
+        return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
+    });
+}
+
+double ActiveTerms::energy_of(std::string_view name) const
+{
+    for (const Term* term : conservative_)
+        if (term->name == name) return term->energy(state_, params_);
+    return 0;
+}
+
+}  // namespace selvage

@@ -1,0 +1,66 @@
+// Second-order backward differences with steps of any lengths, w = dt / (length of the step before):
+//     (1 + 2w)/(1 + w) x1 - (1 + w) x0 + w^2/(1 + w) x(-1) = dt v1,   the same for v1 and a1
+// The first step is one of implicit Euler: its error of order dt^2 is made once.
+// Source: Gear 1971; Hairer, Norsett and Wanner 1993, ch. III.5 for variable steps.
+#include "host/solver/integrators/list.hpp"
+#include "host/solver/integrators/vector_tools.hpp"
+#include "host/solver/phase.hpp"
+
+namespace selvage {
+namespace {
+
+class Bdf2 final : public Integrator {
+public:
+    Bdf2(Phase& phase, const IntegratorInfo& info) : phase_(phase), info_(info)
+    {
+        for (std::vector<real>* v : {&last_way_, &last_gain_, &origin_, &target_, &guess_})
+            v->assign(phase.state().pos.size(), 0);
+    }
+    const IntegratorInfo& info() const override { return info_; }
+    void restart() override { last_dt_[0] = 0; }
+    std::vector<std::vector<real>*> history() override { return {&last_way_, &last_gain_, &last_dt_}; }
+    double error_estimate() const override { return error_; }
+
+    NewtonReport step(double dt, const NewtonOptions& options) override
+    {
+        State& s = phase_.state();
+        const int n = int(s.pos.size());
+        const bool first = last_dt_[0] == 0;
+        // Ways and gains instead of old positions and velocities: pinned vertices then stay to the last bit.
+        const double w = first ? 0 : dt / last_dt_[0], c = w * w / (1 + 2 * w), h = (1 + w) / (1 + 2 * w) * dt;
+        const double parabola = first ? 0 : w * w;
+        for_each_item(n, [&, dt, h, c, w, parabola](int i) {
+            origin_[i] = s.pos[i] + c * last_way_[i];
+            target_[i] = origin_[i] + h * (s.vel[i] + c * last_gain_[i]);
+            // Through both last positions with the last velocity.
+            guess_[i] = s.pos[i] + dt * s.vel[i] + (parabola > 0 ? parabola * (dt / w * s.vel[i] - last_way_[i]) : 0);
+            last_way_[i] = -s.pos[i];
+            last_gain_[i] = -s.vel[i];
+        });
+        const NewtonReport report = phase_.newton().minimise(h, origin_, target_, options);
+        for_each_item(n, [&](int i) {
+            last_way_[i] += s.pos[i];
+            last_gain_[i] += s.vel[i];
+        });
+        last_dt_[0] = dt;
+        settle_friction(s, phase_.params());
+        // The guess errs by -(1 + w)/w dt^3 x'''/6, the step by (1 + w)^2/(w (1 + 2w)) of it (Milne's device).
+        error_ = (first ? 0.5 : (1 + w) / (2 + 3 * w)) * largest_distance(s, s.pos, guess_);
+        return report;
+    }
+
+private:
+    Phase& phase_;
+    const IntegratorInfo& info_;
+    std::vector<real> last_way_, last_gain_, last_dt_{0}, origin_, target_, guess_;
+    double error_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_bdf2_integrator(Phase& phase, const IntegratorInfo& info)
+{
+    return std::make_unique<Bdf2>(phase, info);
+}
+
+}  // namespace selvage
