@@ -49,8 +49,8 @@ public:
 
     /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
     void conclude(RunStatus status, Phase& phase, const RunPlan& plan, const BodyQuery* query,
-                  const RunCounters& counters, const StabilityUse& stability, const Profile& profile, double residual, double wall_seconds,
-                  const std::string& message);
+                  const RunCounters& counters, const StabilityUse& stability, const Profile& profile,
+                  double residual, double wall_seconds, const std::string& message);
 
 private:
     double frame_time_after(double time) const;

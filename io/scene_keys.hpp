@@ -74,7 +74,8 @@
 #define SOLVER_KEYS(KEY, WORD, VEC3)                                                                             \
     WORD(integrator, "implicit_euler",                                                                           \
          "implicit_euler|bdf2|implicit_midpoint|symplectic_euler|central_difference|velocity_verlet|rk4|static", \
-         "how time is advanced while cloth drapes; static: not at all, straight to the shape at rest")           \
+         "how time is advanced while cloth drapes; static: straight to the shape at rest; the explicit ones "   \
+         "(from symplectic_euler to rk4) need short steps and gain energy in contact with bodies")               \
     WORD(until, "equilibrium", "", "\"equilibrium\", or the simulated seconds to run")                           \
     KEY(double, step, 0.02, "s", 1e-6, 1, "time step; it shrinks by itself where a step fails")                  \
     WORD(unstable_step, "shrink", "shrink|refuse",                                                               \

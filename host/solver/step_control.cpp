@@ -13,7 +13,7 @@ namespace {
 
 constexpr double stability_margin = 0.9;
 constexpr double least_fraction = 1.0 / 1024;   // of the longest step: below it a run has diverged
-constexpr double most_energy = 1e3;             // times what the motion had or gravity can give in a step
+constexpr double most_energy = 1;               // times what the motion had, was set free, or gravity can give in a step
 
 }  // namespace
 
@@ -70,7 +70,7 @@ bool StepControl::too_inaccurate(double dt)
 {
     const double error = std::max(integrator_.error_estimate(), 1e-300);
     const double fit = 0.9 * std::pow(options_.error / error, 1.0 / integrator_.info().error_power);
-    if (error > options_.error && dt > 2 * least_fraction * options_.longest) {
+    if (error > options_.error && dt > 2 * floor_) {
         dt_ = dt * std::clamp(fit, 0.2, 0.9);
         return true;
     }
@@ -80,10 +80,22 @@ bool StepControl::too_inaccurate(double dt)
     return false;
 }
 
-// Explicit steps that burst gain energy from nowhere; no vertex may have passed into a body.
-bool StepControl::ends_well(double span, double kinetic_before, double potential_before)
+// No vertex may have passed into a body. Ways are looked at in pieces short enough to be straight: the chord of a
+// vertex that slides around a body for many short steps passes through it.
+bool StepControl::passed_into_body(bool last)
 {
-    if (phase_.contact() && phase_.contact()->crossed(phase_.state(), start_.pos)) return false;
+    if (!phase_.contact()) return false;
+    const State& state = phase_.state();
+    const double piece = 0.5 * phase_.contact()->search_radius();
+    if (!last && largest_distance(state, state.pos, looked_from_) < piece) return false;
+    const bool passed = phase_.contact()->crossed(state, looked_from_);
+    looked_from_ = state.pos;
+    return passed;
+}
+
+// Explicit steps that burst gain energy from nowhere.
+bool StepControl::keeps_energy(double span, double kinetic_before, double potential_before) const
+{
     if (!integrator_.info().is_explicit) return true;
     const ActiveTerms& terms = phase_.newton().terms();
     const double kinetic = terms.kinetic_energy(), potential = terms.potential_energy();
@@ -99,7 +111,7 @@ void StepControl::shrink(double dt)
 {
     ++retries_;
     dt_ = 0.5 * dt;
-    if (dt_ < least_fraction * std::min(options_.longest, limit_))
+    if (!(dt_ >= floor_))
         throw DivergenceError(fmt::format("no step down to {:.3g} s succeeds (solver.step is {:.3g} s); residual {:.3g}",
                                           dt_, options_.longest, report_.residual));
 }
@@ -110,26 +122,34 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
     const bool adaptive = options_.adaptive && integrator_.info().has_error_estimate();
     const ActiveTerms& terms = phase_.newton().terms();
     keep(start_);
+    looked_from_ = start_.pos;
+    floor_ = least_fraction * std::min(options_.longest, integrator_.stable_step());
     const double kinetic = fills ? terms.kinetic_energy() : 0, potential = fills ? terms.potential_energy() : 0;
     const double span = fills ? std::min(options_.longest, room) : room;
-    double done = 0;
+    double done = 0, first = 0;
     shortest_ = span;
     for (;;) {
         const double dt = next_step(span - done);
+        if (done == 0) first = dt;
         if (adaptive && done > 0) keep(last_);
+        // A limit that collapses on the way, or is no number, is that of a state that bursts.
+        const bool sound = !fills || dt >= floor_ || dt >= 0.5 * (span - done);
         const bool last = !fills || span - done - dt <= 1e-9 * span;
-        if (!attempt(dt, options, accurate) || (last && !ends_well(span, kinetic, potential))) {
+        if (!sound || !attempt(dt, options, accurate) || passed_into_body(last) ||
+            (last && !keeps_energy(span, kinetic, potential))) {
             restore(start_);
+            looked_from_ = start_.pos;
             done = 0;
-            shrink(dt);
+            shrink(first);
             continue;
         }
         if (adaptive && too_inaccurate(dt)) {
             ++retries_;
             restore(done > 0 ? last_ : start_);
+            looked_from_ = phase_.state().pos;
             continue;
         }
-        if (!adaptive) dt_ = std::min(options_.longest, 1.5 * dt_);
+        if (!adaptive && last) dt_ = std::min(options_.longest, 1.5 * dt_);
         done += dt;
         shortest_ = std::min(shortest_, dt);
         if (!last) continue;

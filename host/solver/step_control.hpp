@@ -78,7 +78,8 @@ private:
     double next_step(double left);
     bool attempt(double dt, const NewtonOptions& options, bool accurate);
     bool too_inaccurate(double dt);
-    bool ends_well(double span, double kinetic_before, double potential_before);
+    bool passed_into_body(bool last);
+    bool keeps_energy(double span, double kinetic_before, double potential_before) const;
     void shrink(double dt);
 
     Phase& phase_;
@@ -86,10 +87,12 @@ private:
     StepOptions options_;
     double dt_;
     double taken_ = 0, shortest_ = 0;
+    double floor_ = 0;            ///< Steps below it mean that the run has diverged [s].
     double limit_ = std::numeric_limits<double>::infinity();
     int retries_ = 0;
     NewtonReport report_;
     Saved start_, last_;
+    std::vector<real> looked_from_;   ///< Positions at the last look for ways into bodies.
 };
 
 }  // namespace selvage

@@ -3,7 +3,8 @@
 // which is A7 in the ways d of two steps. c is d2R/dv2 at the present velocity v, and f holds what the drag force
 // there is beside -c v, so that drag which is not linear is treated in the second order as well.
 // The first step, and one of another length, starts from d0 = dt v - dt^2/2 a; at rest this is the source's x(-1) = x0
-// but for the order. v1 = d1/dt + dt/2 a0.
+// but for the order. After a step of length k, v = d0/k + k/2 a with the acceleration at its end: the one at its start,
+// which the velocity that the step leaves is made of, would feed energy to fast modes at every change of length.
 // Source: Fan, Zhou, Wang and Yuen 1998 (A7).
 #include <Eigen/Dense>
 
@@ -37,8 +38,12 @@ private:
         State& s = state();
         accelerate(a_);
         // Lengths that differ by rounding only are the same.
-        if (std::abs(dt - last_dt_[0]) > 1e-9 * dt)
-            for_each_item(size(), [&, dt](int i) { way_[i] = dt * (s.vel[i] - 0.5 * dt * a_[i]); });
+        const double last = last_dt_[0];
+        if (std::abs(dt - last) > 1e-9 * dt)
+            for_each_item(size(), [&, dt, last](int i) {
+                const double velocity = last > 0 ? way_[i] / last + 0.5 * last * a_[i] : s.vel[i];
+                way_[i] = dt * (velocity - 0.5 * dt * a_[i]);
+            });
         if (phase_.newton().terms().dissipates())
             swing_with_drag(dt);
         else

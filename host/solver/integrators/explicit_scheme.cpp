@@ -6,6 +6,7 @@ namespace selvage {
 namespace {
 
 constexpr int steps_between_estimates = 100;
+constexpr int steps_in_contact = 10;   // the same where the barrier of a body may stiffen quickly
 
 }  // namespace
 
@@ -25,7 +26,8 @@ void ExplicitScheme::restart() { watch_.assign(4, 0); }
 double ExplicitScheme::stable_step()
 {
     const double change = std::abs(watch_[3] - watch_[2]);
-    if (watch_[0] > 0 && watch_[1] < steps_between_estimates && change <= 8 + 0.2 * watch_[2]) return watch_[0];
+    const int patience = watch_[3] > 0 ? steps_in_contact : steps_between_estimates;
+    if (watch_[0] > 0 && watch_[1] < patience && change <= 8 + 0.2 * watch_[2]) return watch_[0];
     if (phase_.contact()) phase_.contact()->update(state());
     const double frequency = highest_frequency(phase_), drag = largest_drag_rate(phase_);
     watch_ = {limit(frequency, drag), 0, double(contacts()), double(contacts())};

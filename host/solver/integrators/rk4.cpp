@@ -2,6 +2,7 @@
 //     k1 = y'(y), k2 = y'(y + dt/2 k1), k3 = y'(y + dt/2 k2), k4 = y'(y + dt k3),   y += dt/6 (k1 + 2 k2 + 2 k3 + k4)
 // Moving the weight of k4 to the slope at the new state gives a companion of third order: the difference estimates
 // its error, so the step is better than the estimate says.
+// In contact with bodies it gains energy: its order holds for smooth forces, and the tangent planes are not.
 // Source: Kutta 1901; the companion follows from the order conditions in Hairer, Norsett and Wanner 1993, ch. II.4.
 #include "host/solver/integrators/explicit_scheme.hpp"
 #include "host/solver/integrators/list.hpp"
