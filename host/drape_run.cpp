@@ -136,6 +136,7 @@ PhaseEnd DrapeRun::run_draping()
     options.tolerance = scene_.solver.tolerance;
     options.max_time = scene_.solver.max_time;
     options.newton_iterations = scene_.solver.newton_iterations;
+    options.load_steps = scene_.solver.load_steps;
     const AfterStep hear = [this](const StepEvent& event) { return after_step(event); };
     if (scene_.solver.until == "equilibrium") return drape_to_equilibrium(*phase_, options, progress_.draping, hear);
     return drape_until(*phase_, options, std::stod(scene_.solver.until), 1 / scene_.solver.frame_rate,

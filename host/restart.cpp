@@ -81,7 +81,8 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
     checkpoint.words = {{"model", model_fingerprint(model)}, {"phase", p.phase},
                         {"integrator", std::string(integrator.info().name)}};
     checkpoint.integers["counts"] = {p.counters.steps, p.counters.newton_iterations, p.counters.linear_iterations,
-                                     p.frames, p.sewing.steps_without_gain, p.pressing.step, p.draping.hold};
+                                     p.frames, p.sewing.steps_without_gain, p.pressing.step, p.draping.hold,
+                                     p.draping.load};
     checkpoint.reals["clock"] = {p.counters.simulated, p.wall_seconds};
     checkpoint.reals["sewing"] = {p.sewing.time, p.sewing.best_gap, p.sewing.elastic_energy, p.sewing.gap,
                                   p.sewing.energy_change, p.sewing.dt, phase.params().seam.stiffness,
@@ -107,7 +108,7 @@ RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path,
     p.phase = word_of(checkpoint, "phase");
     if (p.phase != "sew" && p.phase != "press" && p.phase != "drape")
         throw InputError({path, 0, 0, "phase"}, "`" + p.phase + "`", "sew, press or drape");
-    const auto& counts = array_of(checkpoint.integers, "counts", path, 7);
+    const auto& counts = array_of(checkpoint.integers, "counts", path, 8);
     const auto& clock = array_of(checkpoint.reals, "clock", path, 2);
     const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
     const auto& draping = array_of(checkpoint.reals, "draping", path, 5);
@@ -119,7 +120,7 @@ RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path,
     p.wall_seconds = clock[1];
     p.sewing = {sewing[0], sewing[1], counts[4], sewing[2], sewing[3], sewing[4], sewing[5]};
     p.pressing = {counts[5], draping[0]};
-    p.draping = {draping[1], draping[2], counts[6], draping[3], draping[4]};
+    p.draping = {draping[1], draping[2], counts[6], draping[3], draping[4], counts[7]};
     for (const auto& [name, values] : checkpoint.reals)
         if (name.starts_with("phase_") && !values.empty()) p.counters.phases[name.substr(6)] = values.front();
     return p;

@@ -1,15 +1,19 @@
-# Writes a C++ file that holds every TOML file below FOLDER (see io/presets.hpp):
-#     cmake -DFOLDER=io/presets -DOUTPUT=preset_files.cpp -P io/embed_presets.cmake
+# Writes a C++ file that holds every file below FOLDER that matches PATTERN, as the body of a function that HEADER
+# declares (see io/presets.hpp):
+#     cmake -DFOLDER=io/presets -DPATTERN=*.toml -DHEADER=io/presets.hpp -DFUNCTION=preset_files
+#           -DOUTPUT=preset_files.cpp -P io/embed_presets.cmake
 cmake_minimum_required(VERSION 3.20)
 
-if(NOT FOLDER OR NOT OUTPUT)
-    message(FATAL_ERROR "FOLDER and OUTPUT must be given")
-endif()
+foreach(argument FOLDER PATTERN HEADER FUNCTION OUTPUT)
+    if(NOT ${argument})
+        message(FATAL_ERROR "${argument} must be given")
+    endif()
+endforeach()
 
 # The C++ standard asks compilers for no more than this in one string literal.
 set(literal_limit 65536)
 set(entries "")
-file(GLOB_RECURSE paths LIST_DIRECTORIES false RELATIVE "${FOLDER}" "${FOLDER}/*.toml")
+file(GLOB_RECURSE paths LIST_DIRECTORIES false RELATIVE "${FOLDER}" "${FOLDER}/${PATTERN}")
 list(SORT paths)
 foreach(path IN LISTS paths)
     file(SIZE "${FOLDER}/${path}" size)
@@ -21,7 +25,7 @@ foreach(path IN LISTS paths)
 endforeach()
 
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [=[
-#include "io/presets.hpp"
+#include "@HEADER@"
 
 namespace selvage {
 namespace {
@@ -31,7 +35,7 @@ constexpr PresetFile files[] = {
 
 }  // namespace
 
-std::span<const PresetFile> preset_files()
+std::span<const PresetFile> @FUNCTION@()
 {
     return files;
 }

@@ -24,7 +24,8 @@
     KEY(double, height, 1, "m", 1e-3, 100, "extent along warp (rectangle)")                                      \
     KEY(double, radius, 0.15, "m", 1e-3, 100, "radius (disc)")                                                   \
     KEY(int, resolution, 65, "1", 2, 4097, "vertices per side; across the diameter for a disc")                  \
-    WORD(mesh_family, "alternating", "alternating|same_diagonal|irregular", "how a rectangle is triangulated")   \
+    WORD(mesh_family, "automatic", "automatic|alternating|same_diagonal|rows|cross|equilateral|irregular|panel|square", \
+         "triangles: alternating (automatic) to irregular for a rectangle; panel (automatic), equilateral, square or irregular for a disc") \
     WORD(fabric, "cotton", "", "a preset's name or a [fabric.NAME] table")                                       \
     WORD(unit, "m", "m|cm|mm|inch", "length unit of the mesh file")                                              \
     WORD(up_axis, "z", "x|y|z", "up direction of the mesh file")                                                 \
@@ -91,6 +92,7 @@
     KEY(double, step_error, 1e-4, "m", 1e-12, 1, "error of one step that adaptive steps allow")                  \
     KEY(double, tolerance, 1e-3, "1", 1e-9, 1, "equilibrium: net force over gravity force on free vertices")     \
     KEY(double, energy_tolerance, 1e-4, "1", 0, 1, "sewing: relative change of elastic energy between steps at which it may stop") \
+    KEY(int, load_steps, 1, "1", 1, 100, "equilibrium: the weight grows to its whole in so many steps, with rest after each") \
     KEY(double, max_time, 30, "s", 0, 1e6, "simulated time after which a run to equilibrium gives up")           \
     KEY(double, max_wall, 0, "s", 0, 1e7, "wall time after which the run is saved and ends; 0: no limit")        \
     KEY(int, newton_iterations, 40, "1", 1, 1000, "Newton iterations per step before it is retried smaller")     \

@@ -16,7 +16,8 @@ using Action = std::function<int()>;
 using AddCommand = void(CLI::App& program, Action& chosen);
 
 AddCommand add_drape_command, add_plan_command, add_check_command, add_render_command, add_info_command,
-    add_scenes_command, add_fabrics_command, add_schema_command, add_bench_command;
+    add_scenes_command, add_fabrics_command, add_schema_command, add_bench_command,
+    add_validate_command;
 
 /// The scene that a subcommand works on.
 struct SceneChoice {

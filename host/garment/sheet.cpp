@@ -3,20 +3,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <set>
 
 #include <Eigen/Geometry>
 
-#include "host/garment/assemble.hpp"
 #include "host/garment/outline.hpp"
-#include "host/garment/panel_mesh.hpp"
+#include "host/garment/sheet_families.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double jitter = 0.27;          // of the grid spacing, for irregular rectangles
 constexpr double flat_tolerance = 1e-5;  // of the extent, for meshes without texture coordinates
 
 Mat3 turned(const Vec3& degrees)
@@ -27,95 +24,27 @@ Mat3 turned(const Vec3& degrees)
         .toRotationMatrix();
 }
 
-// A number in [-1, 1] that depends on the index only (Steele, Lea and Flood 2014, SplitMix64).
-double scatter(std::uint64_t index)
+// The family of a sheet's triangles, checked.
+std::string mesh_family(const SheetScene& sheet, const std::vector<std::string>& families, const InputPlace& place)
 {
-    std::uint64_t bits = (index + 1) * 0x9e3779b97f4a7c15ull;
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ull;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebull;
-    return double((bits ^ (bits >> 31)) >> 11) / 4503599627370496.0 - 1;
+    if (sheet.mesh_family == "automatic") return families.front();
+    if (std::find(families.begin(), families.end(), sheet.mesh_family) != families.end()) return sheet.mesh_family;
+    std::string expected;
+    for (const std::string& family : families)
+        expected += (expected.empty() ? "" : family == families.back() ? " or " : ", ") + family;
+    throw InputError({place.file, 0, 0, place.key + ".mesh_family"}, "`" + sheet.mesh_family + "`",
+                     expected + ", for a " + sheet.shape, nearest_name(sheet.mesh_family, families));
 }
 
-// The faces of a grid, its points jittered off the lattice. The rim is put first for the triangulation.
-std::vector<Face> irregular_faces(std::vector<Vec2>& points, int columns, int rows, const Vec2& spacing)
+SheetMesh rectangle(const SheetScene& sheet, const InputPlace& place)
 {
-    std::vector<int> order;
-    for (int i = 0; i < columns; ++i) order.push_back(i);
-    for (int j = 1; j < rows; ++j) order.push_back(j * columns + columns - 1);
-    for (int i = columns - 2; i >= 0; --i) order.push_back((rows - 1) * columns + i);
-    for (int j = rows - 2; j > 0; --j) order.push_back(j * columns);
-    const int rim = int(order.size());
-    for (int j = 1; j + 1 < rows; ++j)
-        for (int i = 1; i + 1 < columns; ++i) {
-            const int vertex = j * columns + i;
-            points[vertex] += jitter * Vec2(spacing.x() * scatter(2 * std::uint64_t(vertex)),
-                                            spacing.y() * scatter(2 * std::uint64_t(vertex) + 1));
-            order.push_back(vertex);
-        }
-    std::vector<Vec2> ordered;
-    ordered.reserve(order.size());
-    for (const int vertex : order) ordered.push_back(points[vertex]);
-    std::vector<Face> faces = triangulate_points(ordered, rim);
-    for (Face& face : faces) {
-        for (int& vertex : face) vertex = order[vertex];
-        std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-    }
-    std::sort(faces.begin(), faces.end());
-    return faces;
-}
-
-std::vector<Face> grid_faces(int columns, int rows, bool alternating)
-{
-    std::vector<Face> faces;
-    faces.reserve(2 * std::size_t(columns - 1) * (rows - 1));
-    for (int j = 0; j + 1 < rows; ++j)
-        for (int i = 0; i + 1 < columns; ++i) {
-            const int a = j * columns + i, b = a + 1, c = b + columns, d = a + columns;
-            if (alternating && (i + j) % 2 == 1) {
-                faces.push_back({a, b, d});
-                faces.push_back({b, c, d});
-            } else {
-                faces.push_back({a, b, c});
-                faces.push_back({a, c, d});
-            }
-        }
-    return faces;
-}
-
-void fill_rectangle(const SheetScene& sheet, Cloth& cloth, const InputPlace& place)
-{
-    const int columns = sheet.resolution;
-    const int rows = std::max(2, int(std::lround((columns - 1) * sheet.height / sheet.width)) + 1);
-    if (double(columns) * rows > 1e9)
+    const std::string family = mesh_family(sheet, rectangle_families(), place);
+    const double rows = (sheet.resolution - 1) * sheet.height / sheet.width + 1;
+    if (sheet.resolution * rows > 1e9)
         throw InputError({place.file, 0, 0, place.key + ".resolution"},
-                         std::to_string(columns) + " x " + std::to_string(rows) + " vertices", "fewer than 1e9");
-    const Vec2 spacing(sheet.width / (columns - 1), sheet.height / (rows - 1));
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i)
-            cloth.panel_coordinates.push_back(
-                {i * spacing.x() - 0.5 * sheet.width, j * spacing.y() - 0.5 * sheet.height});
-    if (sheet.mesh_family == "irregular")
-        cloth.faces = irregular_faces(cloth.panel_coordinates, columns, rows, spacing);
-    else if (sheet.mesh_family == "alternating" || sheet.mesh_family == "same_diagonal")
-        cloth.faces = grid_faces(columns, rows, sheet.mesh_family == "alternating");
-    else
-        throw InputError({place.file, 0, 0, place.key + ".mesh_family"}, "`" + sheet.mesh_family + "`",
-                         "alternating, same_diagonal or irregular");
-}
-
-void fill_disc(const SheetScene& sheet, Cloth& cloth)
-{
-    const double edge_length = 2 * sheet.radius / (sheet.resolution - 1);
-    const int count = std::max(6, int(std::lround(2 * std::numbers::pi * sheet.radius / edge_length)));
-    std::vector<Vec2> circle;
-    for (int i = 0; i < count; ++i) {
-        const double angle = 2 * std::numbers::pi * i / count;
-        circle.push_back(sheet.radius * Vec2(std::cos(angle), std::sin(angle)));
-    }
-    PanelMesh mesh = mesh_panel(circle, edge_length);
-    renumber_for_locality(mesh.vertices, mesh.faces);
-    cloth.panel_coordinates = std::move(mesh.vertices);
-    cloth.faces = std::move(mesh.faces);
+                         std::to_string(sheet.resolution) + " x " + std::to_string(std::lround(rows)) + " vertices",
+                         "fewer than 1e9");
+    return rectangle_mesh(family, sheet.width, sheet.height, sheet.resolution);
 }
 
 double face_area(const Cloth& cloth, const Face& face)
@@ -267,17 +196,19 @@ void orient(Cloth& cloth, const InputPlace& place)
 
 Cloth make_sheet(const SheetScene& sheet, const PinsScene& pins, const std::string& file, const std::string& key)
 {
-    Cloth cloth;
-    if (sheet.shape == "rectangle")
-        fill_rectangle(sheet, cloth, {file, 0, 0, key});
-    else if (sheet.shape == "disc")
-        fill_disc(sheet, cloth);
-    else
+    const InputPlace place{file, 0, 0, key};
+    if (sheet.shape != "rectangle" && sheet.shape != "disc")
         throw InputError({file, 0, 0, key + ".shape"}, "`" + sheet.shape + "`", "rectangle or disc");
+    SheetMesh mesh = sheet.shape == "rectangle"
+                         ? rectangle(sheet, place)
+                         : disc_mesh(mesh_family(sheet, disc_families(), place), sheet.radius, sheet.resolution);
+    Cloth cloth;
+    cloth.panel_coordinates = std::move(mesh.points);
+    cloth.faces = std::move(mesh.faces);
     const Mat3 rotation = turned(sheet.rotation);
     for (const Vec2& point : cloth.panel_coordinates)
         cloth.positions.push_back(rotation * Vec3(point.x(), point.y(), 0) + sheet.center);
-    describe_panel(sheet, cloth, {file, 0, 0, key});
+    describe_panel(sheet, cloth, place);
     pin(pins, cloth, file);
     return cloth;
 }

@@ -8,12 +8,12 @@
 namespace selvage {
 
 /// Makes a rectangle or disc of plain cloth. Panel coordinates have their origin in the middle of the sheet.
-/// A rectangle's vertices are numbered row by row, from -warp to +warp and from -weft to +weft.
+/// A rectangle's vertices are numbered row by row, from -warp to +warp and from -weft to +weft; see sheet_families.hpp.
 /// @param sheet  shape `rectangle` or `disc`
 /// @param pins   which vertices are held; `pins.vertices` are indices into this sheet
 /// @param file   scene file for messages
 /// @param key    key path of the sheet, such as `sheet[0]`; the panel is named after it
-/// @throws InputError for an unknown word or a pinned vertex that does not exist
+/// @throws InputError for an unknown word, a mesh family of another shape or a pinned vertex that does not exist
 Cloth make_sheet(const SheetScene& sheet, const PinsScene& pins, const std::string& file, const std::string& key);
 
 /// Makes a sheet from a mesh: its middle (of the bounding box) starts at the sheet's centre.

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int relax_chunk = 5;      // static iterations between two looks at interrupts and limits
 constexpr int relax_chunks = 12;
+constexpr double first_load = 0.05;   // part of the weight at the first of several load steps
 constexpr int steps_between = 8;    // motion after a static attempt that did not reach the tolerance
 
 // What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
@@ -69,13 +70,10 @@ StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
             progress.residual, control.stable_step(), control.shortest()};
 }
 
-}  // namespace
-
-PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
-                              const AfterStep& after_step)
+// Rest under the present weight.
+PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOptions& options, DrapeProgress& progress,
+                      const AfterStep& after_step)
 {
-    std::unique_ptr<Integrator> own;
-    Integrator& integrator = chosen(options, phase, own);
     StepControl control(phase, integrator, options.step);
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
@@ -96,6 +94,31 @@ PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, D
         --progress.hold;
         if (!after_step(event_of(control, progress))) return PhaseEnd::stopped;
     }
+}
+
+}  // namespace
+
+PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
+                              const AfterStep& after_step)
+{
+    std::unique_ptr<Integrator> own;
+    Integrator& integrator = chosen(options, phase, own);
+    const auto whole = phase.params().gravity;
+    const double first = std::log(first_load);
+    PhaseEnd end = PhaseEnd::reached;
+    while (progress.load < options.load_steps && end == PhaseEnd::reached) {
+        const int left = options.load_steps - 1 - progress.load;
+        const double part = left == 0 ? 1 : std::exp(first * left / (options.load_steps - 1));
+        auto& gravity = phase.params().gravity;
+        gravity.acceleration_x = part * whole.acceleration_x;
+        gravity.acceleration_y = part * whole.acceleration_y;
+        gravity.acceleration_z = part * whole.acceleration_z;
+        end = come_to_rest(phase, integrator, options, progress, after_step);
+        if (end == PhaseEnd::reached && left > 0) progress = DrapeProgress{.time = progress.time, .load = progress.load};
+        if (end == PhaseEnd::reached) ++progress.load;
+    }
+    phase.params().gravity = whole;
+    return end;
 }
 
 PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double until, double frame_interval,

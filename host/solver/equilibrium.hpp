@@ -9,6 +9,7 @@ struct EquilibriumOptions {
     double tolerance = 1e-3;     ///< Relative static force residual to reach [1].
     double max_time = 30;        ///< Simulated time after which to give up [s].
     int newton_iterations = 12;
+    int load_steps = 1;          ///< The weight grows to its whole in so many steps, with rest after each.
 };
 
 /// Where a drape stands; kept in checkpoints.
@@ -18,10 +19,12 @@ struct DrapeProgress {
     int hold = 0;                ///< Steps to take before the next attempt.
     double residual = 1e30;      ///< Static residual after the last step [1].
     double dt = 0;               ///< Of the next step; 0: the longest [s].
+    int load = 0;                ///< Load steps that are done.
 };
 
 /// Lets the cloth fall, by default with implicit steps, which are dissipative, and finishes with Newton's method on the static
-/// energy as soon as the forces are nearly balanced.
+/// energy as soon as the forces are nearly balanced. With several load steps it is let down slowly: what falls at once
+/// may be caught in folds that a drape meter, which lowers its specimen, does not see.
 PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
                               const AfterStep& after_step);
 

@@ -22,7 +22,7 @@ PLACES = {
     r"^host/": ["host", "bench", "validation"],
     r"^bench/": ["bench", "host/commands", "validation"],
     r"^io/": ["io", "host", "bench", "validation"],
-    r"^validation/": ["validation"],
+    r"^validation/": ["validation", "host/commands"],
 }
 
 

@@ -7,6 +7,7 @@
 
 #include "host/garment/outline.hpp"
 #include "host/garment/sheet.hpp"
+#include "host/garment/sheet_families.hpp"
 #include "host/garment/transfer.hpp"
 #include "io/errors.hpp"
 
@@ -48,6 +49,34 @@ TEST_CASE("sheets have the vertices, size and place that their scene says")
     for (const Face& face : disc.faces) CHECK(face_area(disc, face) > 0.1 * 0.01 * 0.01);
     sheet.shape = "circle";
     CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), Catch::Contains("sheet[0].shape"));
+}
+
+TEST_CASE("every mesh family fills its rectangle or disc with faces that look up")
+{
+    SheetScene sheet;
+    sheet.resolution = 10;
+    sheet.width = 0.8;
+    sheet.height = 0.4;
+    for (const std::string& family : rectangle_families()) {
+        INFO(family);
+        sheet.mesh_family = family;
+        const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+        CHECK(cloth.panels[0].rest_area == Approx(0.32));
+        CHECK(cloth.panels[0].rest_boundary == Approx(2.4));
+        for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
+    }
+    sheet.shape = "disc";
+    sheet.radius = 0.15;
+    sheet.resolution = 21;
+    for (const std::string& family : disc_families()) {
+        INFO(family);
+        sheet.mesh_family = family;
+        const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+        CHECK(cloth.panels[0].rest_area == Approx(std::numbers::pi * 0.15 * 0.15).epsilon(0.01));
+        for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
+    }
+    sheet.mesh_family = "cross";
+    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), Catch::Contains("sheet[0].mesh_family"));
 }
 
 TEST_CASE("pins hold the vertices that their word names")

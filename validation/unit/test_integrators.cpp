@@ -6,7 +6,7 @@
 #include "host/solver/stability.hpp"
 #include "host/solver/step_control.hpp"
 #include "io/errors.hpp"
-#include "validation/unit/small_cloth.hpp"
+#include "validation/small_cloth.hpp"
 
 using namespace selvage;
 

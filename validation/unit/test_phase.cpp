@@ -6,7 +6,7 @@
 #include "host/solver/phase.hpp"
 #include "host/solver/plan.hpp"
 #include "host/solver/sewing.hpp"
-#include "validation/unit/small_cloth.hpp"
+#include "validation/small_cloth.hpp"
 
 using namespace selvage;
 

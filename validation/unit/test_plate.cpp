@@ -2,7 +2,7 @@
 
 #include "host/garment/sheet.hpp"
 #include "host/solver/plate.hpp"
-#include "validation/unit/small_cloth.hpp"
+#include "validation/small_cloth.hpp"
 
 using namespace selvage;
 

@@ -7,7 +7,8 @@
 #include "host/solver/phase.hpp"
 #include "host/solver/plan.hpp"
 #include "host/solver/springs.hpp"
-#include "validation/unit/small_cloth.hpp"
+#include "validation/cases/finite_differences.hpp"
+#include "validation/small_cloth.hpp"
 
 using namespace selvage;
 

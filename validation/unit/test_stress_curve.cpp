@@ -5,7 +5,8 @@
 #include <random>
 
 #include "io/scene.hpp"
-#include "validation/unit/small_cloth.hpp"
+#include "validation/cases/finite_differences.hpp"
+#include "validation/small_cloth.hpp"
 
 using namespace selvage;
 

@@ -3,17 +3,12 @@
 #include <Eigen/Dense>
 
 #include "host/solver/linear_solver.hpp"
-#include "validation/unit/small_cloth.hpp"
+#include "validation/cases/finite_differences.hpp"
+#include "validation/small_cloth.hpp"
 
 using namespace selvage;
 
 namespace {
-
-// The field that a term's value depends on: positions, or velocities for a dissipative one.
-std::vector<real>& argument(const Term& term, State& state)
-{
-    return term.nature == Nature::conservative ? state.pos : state.vel;
-}
 
 void rotate_and_shift(State& state)
 {
@@ -25,52 +20,6 @@ void rotate_and_shift(State& state)
     }
 }
 
-// What a plate keeps out of its slots: J^T (G - W) J.
-void add_couplings(const State& state, Eigen::MatrixXd& dense)
-{
-    const int hinges = state.size.hinge_count, hs = state.size.hinge_stride;
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(hinges, dense.cols());
-    Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(hinges, hinges);
-    for (int h = 0; h < hinges; ++h) {
-        for (int c = 0; c < 12; ++c) slopes(h, 3 * state.hinge_vertex[c / 3 * hs + h] + c % 3) += state.hinge_slope[12 * h + c];
-        for (int k = state.coupling_slots[h]; k < state.coupling_slots[hs + h]; ++k)
-            rest(h, state.coupling_hinge[k]) = state.coupling_rigidity[k];
-        rest(h, h) -= state.hinge_rigidity[h];
-    }
-    dense += slopes.transpose() * rest * slopes;
-}
-
-// The assembled stiffness of one term as a dense matrix over the active degrees of freedom, from its columns.
-Eigen::MatrixXd dense_stiffness(const Term& term, State& state, const Params& params, bool projected)
-{
-    clear_stiffness(state);
-    term.add_stiffness(state, params, projected);
-    const std::vector<int> dofs = active_dofs(state);
-    const int n = state.size.vertex_count;
-    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-    for (int v = 0; v < n && !state.vertex_stiffness.empty(); ++v)
-        for (int c = 0; c < 9; ++c) dense(3 * v + c / 3, 3 * v + c % 3) += state.vertex_stiffness[9 * v + c];
-    const auto add_elements = [&](int corners, int count, int stride, const auto& vertex, const auto& stiffness) {
-        for (int e = 0; e < count && !stiffness.empty(); ++e)
-            for (int a = 0; a < corners; ++a)
-                for (int b = a + 1; b < corners; ++b)
-                    for (int c = 0; c < 9; ++c) {
-                        const double k = stiffness[9 * (std::size_t(block_index(corners, a, b)) * stride + e) + c];
-                        const int va = 3 * vertex[a * stride + e], vb = 3 * vertex[b * stride + e];
-                        dense(va + c / 3, vb + c % 3) += k;
-                        dense(vb + c % 3, va + c / 3) += k;
-                        dense(va + c / 3, va + c % 3) -= k;
-                        dense(vb + c % 3, vb + c / 3) -= k;
-                    }
-    };
-#define ADD(kind, corners) \
-    add_elements(corners, state.size.kind##_count, state.size.kind##_stride, state.kind##_vertex, state.kind##_stiffness);
-    ELEMENT_KINDS(ADD)
-#undef ADD
-    if (term.fields[std::size_t(Field::hinge_slope)]) add_couplings(state, dense);
-    return dense;
-}
-
 }  // namespace
 
 TEST_CASE("every term's force is minus the gradient of its value", "[terms]")
@@ -80,17 +29,8 @@ TEST_CASE("every term's force is minus the gradient of its value", "[terms]")
         INFO("term " << term.name);
         State state = crumpled_state(params);
         const std::vector<real> force = term_force(term, state, params);
-        const real h = 1e-7;
-        for (int dof : active_dofs(state)) {
-            real& x = argument(term, state)[dof];
-            const real at = x;
-            x = at + h;
-            const double above = term.energy(state, params);
-            x = at - h;
-            const double below = term.energy(state, params);
-            x = at;
-            CHECK(force[dof] == Approx(-(above - below) / (2 * h)).epsilon(1e-5).margin(1e-7));
-        }
+        const std::vector<real> expected = differenced_force(term, state, params);
+        for (int dof : active_dofs(state)) CHECK(force[dof] == Approx(expected[dof]).epsilon(1e-5).margin(1e-7));
     }
 }
 
@@ -100,27 +40,10 @@ TEST_CASE("every term's exact stiffness is minus the gradient of its force", "[t
     for (const Term& term : all_terms()) {
         INFO("term " << term.name);
         State state = crumpled_state(params);
-        const Eigen::MatrixXd stiffness = dense_stiffness(term, state, params, false);
+        const Eigen::MatrixXd stiffness = ordered_stiffness(term, state, params, false);
         CHECK((stiffness - stiffness.transpose()).norm() <= 1e-6 * stiffness.norm());
-        const std::vector<int> dofs = active_dofs(state);
-        const int n = state.size.vertex_count;
-        const real h = 1e-8;
-        double worst = 0;
-        for (int j = 0; j < 3 * n; ++j) {
-            real& x = argument(term, state)[dofs[j]];
-            const real at = x;
-            x = at + h;
-            const std::vector<real> above = term_force(term, state, params);
-            x = at - h;
-            const std::vector<real> below = term_force(term, state, params);
-            x = at;
-            for (int i = 0; i < 3 * n; ++i) {
-                const double expected = -(above[dofs[i]] - below[dofs[i]]) / (2 * h);
-                const double k = stiffness(3 * (i % n) + i / n, 3 * (j % n) + j / n);
-                worst = std::max(worst, std::abs(k - expected));
-            }
-        }
-        CHECK(worst <= 2e-6 * stiffness.norm() + 1e-9);
+        const Eigen::MatrixXd expected = differenced_stiffness(term, state, params);
+        CHECK((stiffness - expected).cwiseAbs().maxCoeff() <= 2e-6 * stiffness.norm() + 1e-9);
     }
 }
 
@@ -130,7 +53,7 @@ TEST_CASE("every term's projected stiffness has no negative eigenvalue", "[terms
     for (const Term& term : all_terms()) {
         INFO("term " << term.name);
         State state = crumpled_state(params, 3);
-        const Eigen::MatrixXd stiffness = dense_stiffness(term, state, params, true);
+        const Eigen::MatrixXd stiffness = ordered_stiffness(term, state, params, true);
         const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues()[0];
         CHECK(lowest >= -1e-6 * stiffness.norm());   // the slots hold floats
     }
@@ -210,11 +133,11 @@ TEST_CASE("linear solvers of both precisions and preconditioners agree with a de
     const std::vector<int> dofs = active_dofs(state);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(243, 243);
     for (const Term& term : all_terms())
-        if (term.is_active(params)) dense += dense_stiffness(term, state, params, true);
+        if (term.is_active(params)) dense += ordered_stiffness(term, state, params, true);
     Eigen::VectorXd rhs(243);
     for (int i = 0; i < 243; ++i) {
-        rhs[3 * (i % 81) + i / 81] = b[dofs[i]];
-        dense(3 * (i % 81) + i / 81, 3 * (i % 81) + i / 81) += 100 * state.mass[i % 81];
+        rhs[i] = b[dofs[i]];
+        dense(i, i) += 100 * state.mass[i % 81];
     }
     const Eigen::VectorXd expected = dense.ldlt().solve(rhs);
 
@@ -230,6 +153,6 @@ TEST_CASE("linear solvers of both precisions and preconditioners agree with a de
             const LinearResult result = solver->solve(b.data(), in_double ? 1e-12 : 1e-5, x.data());
             CHECK_FALSE(result.negative_curvature);
             for (int i = 0; i < 243; ++i)
-                CHECK(x[dofs[i]] == Approx(expected[3 * (i % 81) + i / 81]).margin(in_double ? 1e-9 : 1e-3));
+                CHECK(x[dofs[i]] == Approx(expected[i]).margin(in_double ? 1e-9 : 1e-3));
         }
 }

@@ -112,22 +112,4 @@ inline State crumpled_state(const Params& params, unsigned seed = 7)
     return state;
 }
 
-/// Indices into `state.pos` that belong to a vertex, not to padding.
-inline std::vector<int> active_dofs(const State& state)
-{
-    std::vector<int> dofs;
-    for (int c = 0; c < 3; ++c)
-        for (int v = 0; v < state.size.vertex_count; ++v) dofs.push_back(c * state.size.vertex_stride + v);
-    return dofs;
-}
-
-/// The force of one term alone, indexed like `state.pos` [N].
-inline std::vector<real> term_force(const Term& term, State& state, const Params& params)
-{
-    clear_forces(state);
-    term.add_force(state, params);
-    gather_forces(state);
-    return state.force;
-}
-
 }  // namespace selvage

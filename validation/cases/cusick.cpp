@@ -1,0 +1,158 @@
+// Cusick's drape test: a disc of cloth on a smaller round support, ISO 9073-9, fabrics_cusick.csv.
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "host/scene_model.hpp"
+#include "host/solver/equilibrium.hpp"
+#include "host/solver/plan.hpp"
+#include "validation/cases/cases.hpp"
+#include "validation/cases/drape_shape.hpp"
+#include "validation/cases/reference.hpp"
+
+namespace selvage {
+namespace {
+
+struct Apparatus {
+    double specimen = 0.15, support = 0.09;   // radii [m]
+};
+
+struct DrapeResult {
+    double coefficient = 0;   // [%]
+    int folds = 0;
+};
+
+// The fabric of a row: what the table gives, and cotton's shear and stretch, which it does not give.
+Fabric measured_fabric(const std::string& name, double& coefficient, int& folds)
+{
+    for (const ReferenceRow& row : reference_table("fabrics_cusick.csv")) {
+        if (row.text("fabric").find(name) != 0) continue;
+        Fabric fabric = fabric_preset("cotton");
+        fabric.name = "measured";
+        fabric.areal_density = row.number("W_kg_m2");
+        fabric.bending_weft = fabric.bending_warp = row.number("B_Nm");
+        fabric.thickness = 1e-3 * row.number("T_mm");
+        coefficient = row.number("DC_percent");
+        folds = int(row.number("nodes"));
+        return fabric;
+    }
+    throw std::runtime_error("fabrics_cusick.csv has no fabric " + name);
+}
+
+Scene drape_scene(const Fabric& fabric, const Apparatus& apparatus, int across, const std::string& family)
+{
+    Scene scene = read_scene("builtin:cusick", {});
+    scene.sheets[0].radius = apparatus.specimen;
+    scene.sheets[0].resolution = across;
+    scene.sheets[0].mesh_family = family;
+    scene.sheets[0].fabric = fabric.name;
+    scene.bodies[0].radius = apparatus.support;
+    scene.fabrics = {{fabric.name, fabric}};
+    return scene;
+}
+
+std::vector<Vec3> drape_to_rest(const Scene& scene, const SceneModel& model, int load_steps)
+{
+    const PhasePlan plan = make_plan(scene, model).phases.back();
+    PhaseOptions options;
+    options.params = plan.params;
+    options.float_solves = scene.solver.precision == "float";
+    options.linear.max_iterations = scene.solver.linear_iterations;
+    if (!model.model.coarser.empty()) options.linear.preconditioner = Preconditioner::multigrid;
+    BodyQuery query(model.model.bodies, cloth_reach(model.model.cloth));
+    Profile profile;
+    Phase phase(model.model, options, &query, profile, model.model.cloth.positions, {});
+    EquilibriumOptions until;
+    until.step.longest = scene.solver.step;
+    until.tolerance = scene.solver.tolerance;
+    until.max_time = scene.solver.max_time;
+    until.newton_iterations = scene.solver.newton_iterations;
+    until.load_steps = load_steps;
+    DrapeProgress progress;
+    if (drape_to_equilibrium(phase, until, progress, [](const StepEvent&) { return true; }) != PhaseEnd::reached)
+        throw std::runtime_error(fmt::format("the disc did not come to rest, residual {:.2e}", progress.residual));
+    return phase.positions();
+}
+
+DrapeResult drape(const Fabric& fabric, const Apparatus& apparatus, int across, const std::string& family = "panel",
+                  int load_steps = 6)
+{
+    const Scene scene = drape_scene(fabric, apparatus, across, family);
+    const SceneModel model = build_scene_model(scene);
+    const DrapeShadow shadow = drape_shadow(drape_to_rest(scene, model, load_steps), model.model.cloth.faces);
+    const double support = std::numbers::pi * apparatus.support * apparatus.support;
+    const double specimen = std::numbers::pi * apparatus.specimen * apparatus.specimen;
+    return {100 * (shadow.area - support) / (specimen - support), shadow.folds};
+}
+
+// A disc of 30 cm with edges of this length [m].
+int across(double edge_length) { return int(std::lround(0.3 / edge_length)) + 1; }
+
+void compare_meshes(CaseReport& report, const Fabric& cotton)
+{
+    report.from("the same drape on other meshes");
+    std::vector<double> all;
+    const auto add = [&](const std::string& name, double edge_length, const std::string& family) {
+        const DrapeResult result = drape(cotton, {}, across(edge_length), family);
+        all.push_back(result.coefficient);
+        report.inform(fmt::format("cotton broad A, {}: drape coefficient [%]", name), all.front(), result.coefficient);
+    };
+    add("panel mesh, 4 mm", 4e-3, "panel");
+    add("panel mesh, 6 mm", 6e-3, "panel");
+    add("panel mesh, 3 mm", 3e-3, "panel");
+    for (const char* family : {"equilateral", "square", "irregular"}) add(fmt::format("{}, 4 mm", family), 4e-3, family);
+    const auto [least, most] = std::minmax_element(all.begin(), all.end());
+    report.absolute("cotton broad A, 6 meshes: largest difference [points]", 0, *most - *least, 2);
+}
+
+}  // namespace
+
+void check_cusick(CaseReport& report)
+{
+    for (const char* name : {"cotton broad", "polyester tropical"}) {
+        double coefficient = 0;
+        int folds = 0;
+        const Fabric fabric = measured_fabric(name, coefficient, folds);
+        const double edge_length = report.quick() ? 6e-3 : 4e-3;
+        report.from("fabrics_cusick.csv: Matsudaira et al. 2015, second hand");
+        const DrapeResult iso = drape(fabric, {}, across(edge_length));
+        report.absolute(fmt::format("{}, 30 cm on 18 cm, {:g} mm: drape coefficient [%]", name, 1e3 * edge_length),
+                        coefficient, iso.coefficient, 7);
+        report.inform(fmt::format("{}, 30 cm on 18 cm: folds", name), folds, iso.folds);
+        const DrapeResult dropped = drape(fabric, {}, across(6e-3), "panel", 1);
+        report.inform(fmt::format("{}, dropped, 6 mm: drape coefficient [%]", name), coefficient, dropped.coefficient);
+        report.inform(fmt::format("{}, dropped, 6 mm: folds", name), folds, dropped.folds);
+        if (report.quick()) continue;
+        const DrapeResult other = drape(fabric, {0.127, 0.0635}, int(std::lround(0.254 / edge_length)) + 1);
+        report.inform(fmt::format("{}, 25.4 cm on 12.7 cm: drape coefficient [%]", name), coefficient, other.coefficient);
+        report.inform(fmt::format("{}, 25.4 cm on 12.7 cm: folds", name), folds, other.folds);
+    }
+    if (report.quick()) return;
+    double coefficient = 0;
+    int folds = 0;
+    compare_meshes(report, measured_fabric("cotton broad", coefficient, folds));
+}
+
+void check_doubling(CaseReport& report)
+{
+    report.from("the finer mesh before it");
+    double coefficient = 0;
+    int folds = 0;
+    const Fabric cotton = measured_fabric("cotton broad", coefficient, folds);
+    std::vector<double> all;
+    for (const int vertices : {16, 32, 64, 128}) {
+        if (report.quick() && vertices > 64) break;
+        all.push_back(drape(cotton, {}, vertices).coefficient);
+        report.inform(fmt::format("cotton broad A, {} vertices across: drape coefficient [%]", vertices),
+                      all.size() > 1 ? all[all.size() - 2] : all.back(), all.back());
+    }
+    for (std::size_t i = 2; i < all.size(); ++i) {
+        const double before = std::abs(all[i - 1] - all[i - 2]), now = std::abs(all[i] - all[i - 1]);
+        report.judge(fmt::format("change at {} vertices across, below the one before [points]", 16 << i), before, now,
+                     now, before);
+    }
+}
+
+}  // namespace selvage

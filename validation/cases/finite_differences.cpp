@@ -1,0 +1,73 @@
+#include "validation/cases/finite_differences.hpp"
+
+#include "validation/cases/stiffness.hpp"
+
+namespace selvage {
+
+std::vector<real>& term_argument(const Term& term, State& state)
+{
+    return term.nature == Nature::conservative ? state.pos : state.vel;
+}
+
+std::vector<int> active_dofs(const State& state)
+{
+    std::vector<int> dofs;
+    for (int c = 0; c < 3; ++c)
+        for (int v = 0; v < state.size.vertex_count; ++v) dofs.push_back(c * state.size.vertex_stride + v);
+    return dofs;
+}
+
+std::vector<real> term_force(const Term& term, State& state, const Params& params)
+{
+    clear_forces(state);
+    term.add_force(state, params);
+    gather_forces(state);
+    return state.force;
+}
+
+std::vector<real> differenced_force(const Term& term, State& state, const Params& params)
+{
+    const real h = 1e-7;
+    std::vector<real> force(state.pos.size());
+    for (const int dof : active_dofs(state)) {
+        real& x = term_argument(term, state)[dof];
+        const real at = x;
+        x = at + h;
+        const double above = term.energy(state, params);
+        x = at - h;
+        const double below = term.energy(state, params);
+        x = at;
+        force[dof] = -(above - below) / (2 * h);
+    }
+    return force;
+}
+
+Eigen::MatrixXd differenced_stiffness(const Term& term, State& state, const Params& params)
+{
+    const real h = 1e-8;
+    const std::vector<int> dofs = active_dofs(state);
+    Eigen::MatrixXd stiffness(dofs.size(), dofs.size());
+    for (int j = 0; j < int(dofs.size()); ++j) {
+        real& x = term_argument(term, state)[dofs[j]];
+        const real at = x;
+        x = at + h;
+        const std::vector<real> above = term_force(term, state, params);
+        x = at - h;
+        const std::vector<real> below = term_force(term, state, params);
+        x = at;
+        for (int i = 0; i < int(dofs.size()); ++i) stiffness(i, j) = -(above[dofs[i]] - below[dofs[i]]) / (2 * h);
+    }
+    return stiffness;
+}
+
+Eigen::MatrixXd ordered_stiffness(const Term& term, State& state, const Params& params, bool projected)
+{
+    const Eigen::MatrixXd by_vertex = term_stiffness(term, state, params, projected);
+    const int n = state.size.vertex_count;
+    Eigen::MatrixXd ordered(3 * n, 3 * n);
+    for (int i = 0; i < 3 * n; ++i)
+        for (int j = 0; j < 3 * n; ++j) ordered(i, j) = by_vertex(3 * (i % n) + i / n, 3 * (j % n) + j / n);
+    return ordered;
+}
+
+}  // namespace selvage

@@ -1,0 +1,220 @@
+// Motion in time: integrators against oscillation_references.csv, their orders, and what they must conserve.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "validation/cases/cases.hpp"
+#include "validation/cases/oscillator.hpp"
+#include "validation/cases/reference.hpp"
+#include "validation/cases/specimen.hpp"
+
+namespace selvage {
+namespace {
+
+// Amplitude and frequency that a scheme shows for a mass on a spring with omega = 10 rad/s.
+void step_factors(CaseReport& report)
+{
+    const std::string test = "integrator_undamped_k100";
+    const std::pair<const char*, const char*> schemes[] = {{"implicit_euler", "backward_euler"},
+                                                           {"implicit_midpoint", "implicit_midpoint"},
+                                                           {"symplectic_euler", "symplectic_euler"},
+                                                           {"velocity_verlet", "symplectic_euler"},
+                                                           {"bdf2", "bdf2"}};
+    const std::pair<const char*, double> steps[] = {{"0.001", 1e-3}, {"0.01", 1e-2}, {"1/60", 1.0 / 60}};
+    for (const auto& [name, reference] : schemes)
+        for (const auto& [label, dt] : steps) {
+            Oscillator oscillator(name, 10, 0, 1e-4);
+            std::vector<double> motion;
+            for (int k = 0; k < 1000; ++k) {
+                oscillator.step(dt);
+                if (k >= 30) motion.push_back(oscillator.height());   // the first step of BDF2 dies out
+            }
+            const StepFactor factor = fit_step_factor(motion, dt);
+            const std::string key = std::string(reference) + "_omega_dt=" + label;
+            report.relative(fmt::format("{}, dt {}: frequency of a mass on a spring [rad/s]", name, label),
+                            oscillation_reference(test, key), factor.frequency, 1e-6);
+            const bool damps = std::string(name) == "implicit_euler" || std::string(name) == "bdf2";
+            const double amplitude =
+                damps ? oscillation_reference(test, std::string(reference) + "_amp_per_step_dt=" + label) : 1;
+            report.relative(fmt::format("{}, dt {}: amplitude factor of a step", name, label), amplitude,
+                            factor.amplitude, 1e-6);
+        }
+}
+
+void damped(CaseReport& report)
+{
+    for (const auto& [name, tolerance] : {std::pair{"rk4", 1e-6}, {"implicit_midpoint", 1e-3}, {"velocity_verlet", 1e-3}}) {
+        Oscillator oscillator(name, 10, 0.4, 1e-4);
+        for (int k = 0; k < 2000; ++k) oscillator.step(1e-3);
+        report.absolute(fmt::format("{}, dt 0.001: damped oscillator, x(2) / x0", name),
+                        oscillation_reference("damped_oscillator", "x(2)") / 0.1, oscillator.height(), tolerance);
+        report.absolute(fmt::format("{}, dt 0.001: damped oscillator, v(2) / (x0 omega)", name),
+                        oscillation_reference("damped_oscillator", "v(2)"), oscillator.speed() / 10, tolerance);
+    }
+}
+
+// Mean energy over windows at both ends of 1e5 steps of a motion far beyond the linear range.
+void long_run(CaseReport& report)
+{
+    Oscillator oscillator("velocity_verlet", 10, 0, 0.3);
+    constexpr int count = 100000, window = 5000;
+    double first = 0, last = 0;
+    for (int k = 0; k < count; ++k) {
+        oscillator.step(0.01);
+        if (k < window) first += oscillator.energy() / window;
+        if (k >= count - window) last += oscillator.energy() / window;
+    }
+    report.from("a symplectic scheme keeps its energy");
+    report.relative("velocity_verlet, 1e5 steps: mean energy of the last 5000 steps over that of the first", 1,
+                    last / first, 1e-4);
+}
+
+// A soft sheet that is free, or hangs from two corners.
+struct Sheet {
+    ClothModel model;
+    PhaseOptions options;
+    Profile profile;
+    std::vector<Vec3> velocities;
+
+    Sheet()
+    {
+        model.cloth = flat_rectangle("alternating", 0.15, 0.15, 4);
+        Fabric fabric = isotropic_fabric(20, 1e-5, 0, 0.2);
+        model.fabrics = {{specimen_fabric, fabric}};
+        options.params.membrane.scale = options.params.plate.scale = 1;
+        options.linear.max_iterations = 2000;
+    }
+    Phase phase() { return Phase(model, options, nullptr, profile, model.cloth.positions, velocities); }
+    void run(Phase& phase, std::string_view name, double dt, int steps)
+    {
+        const auto integrator = make_integrator(name, phase);
+        for (int k = 0; k < steps; ++k) integrator->step(dt, exact_steps());
+    }
+};
+
+// log2 of how much the change falls from one doubling of the steps to the next: no other solution is needed.
+double observed_order(std::string_view name, int steps)
+{
+    std::vector<std::vector<Vec3>> ends;
+    for (int k = 0; k < 3; ++k) {
+        Sheet sheet;
+        sheet.model.cloth.pinned = {12, 15};
+        for (Vec3& x : sheet.model.cloth.positions) x = Vec3(x.x(), x.y() * 0.99, -0.1 * (0.075 - x.y()));
+        sheet.options.params.gravity.acceleration_z = -9.81;
+        Phase phase = sheet.phase();
+        sheet.run(phase, name, 0.1 / (steps << k), steps << k);
+        ends.push_back(phase.positions());
+    }
+    double change[2] = {};
+    for (int k = 0; k < 2; ++k)
+        for (std::size_t v = 0; v < ends[0].size(); ++v)
+            change[k] = std::max(change[k], (ends[k + 1][v] - ends[k][v]).norm());
+    return std::log2(change[0] / change[1]);
+}
+
+Vec3 momentum(const State& s, bool angular)
+{
+    Vec3 sum = Vec3::Zero();
+    const int vs = s.size.vertex_stride;
+    for (int v = 0; v < s.size.vertex_count; ++v) {
+        const Vec3 x(s.pos[v], s.pos[vs + v], s.pos[2 * vs + v]), u(s.vel[v], s.vel[vs + v], s.vel[2 * vs + v]);
+        sum += s.mass[v] * (angular ? Vec3(x.cross(u)) : u);
+    }
+    return sum;
+}
+
+void free_fall(CaseReport& report, const IntegratorInfo& info)
+{
+    Sheet sheet;
+    sheet.options.params.gravity.acceleration_z = -9.81;
+    Phase phase = sheet.phase();
+    // Explicit schemes would multiply rounding errors at steps above their stability limit.
+    const double mass = 0.2 * 0.15 * 0.15, dt = info.is_explicit ? 1e-3 : 1e-2;
+    sheet.run(phase, info.name, dt, int(std::lround(1 / dt)));
+    report.from("oscillation_references.csv: free fall; first-order schemes and the first step of BDF2 make their known error");
+    report.relative(fmt::format("{}: momentum after 1 s of free fall [kg m/s]", info.name), -9.81 * mass,
+                    momentum(phase.state(), false).z(), 1e-9);
+    if (info.name == "bdf2") return;
+    const double late = info.order == 1 ? 1 + dt : 1;
+    report.relative(fmt::format("{}: way after 1 s of free fall [m]", info.name),
+                    oscillation_reference("free_fall", "y(1)") * late, phase.positions()[5].z(), 1e-9);
+}
+
+void rotation(CaseReport& report, const IntegratorInfo& info)
+{
+    Sheet sheet;
+    const Vec3 spin(0, 0, 5), drift(0.1, 0.2, 0.3), middle(0.075, 0, 0);
+    for (const Vec3& x : sheet.model.cloth.positions) sheet.velocities.push_back(drift + spin.cross(x - middle));
+    Phase phase = sheet.phase();
+    const Vec3 linear = momentum(phase.state(), false), angular = momentum(phase.state(), true);
+    const double energy = phase.newton().kinetic_energy();
+    sheet.run(phase, info.name, 1e-3, 500);
+    report.from("a free sheet keeps its momentum; symplectic schemes keep its spin and nearly its energy");
+    report.absolute(fmt::format("{}: free spinning sheet, change of momentum, relative", info.name), 0,
+                    (momentum(phase.state(), false) - linear).norm() / linear.norm(), 1e-9);
+    const double turned = momentum(phase.state(), true).z();
+    const double total = phase.newton().kinetic_energy() + phase.newton().potential_energy();
+    // Central differences know the velocity to second order only, the others damp or gain.
+    const bool keeps_spin = info.name == "implicit_midpoint" || info.name == "velocity_verlet" ||
+                            info.name == "symplectic_euler";
+    if (!keeps_spin) {
+        report.inform(fmt::format("{}: free spinning sheet, angular momentum [kg m^2/s]", info.name), angular.z(), turned);
+        return;
+    }
+    report.relative(fmt::format("{}: free spinning sheet, angular momentum [kg m^2/s]", info.name), angular.z(), turned,
+                    1e-8);
+    if (info.name == "implicit_midpoint" || info.name == "velocity_verlet")
+        report.relative(fmt::format("{}: free spinning sheet, energy [J]", info.name), energy, total, 1e-3);
+}
+
+// Vertices that are sewn become one particle: nothing may be gained or lost.
+void joining(CaseReport& report)
+{
+    Cloth cloth = flat_rectangle("irregular", 0.3, 0.2, 7);
+    const int vertices = int(cloth.positions.size());
+    std::vector<Vec3> velocities;
+    for (int v = 0; v < vertices; ++v) {
+        cloth.positions[v] += 0.01 * Vec3(std::sin(3.0 * v), std::cos(5.0 * v), std::sin(7.0 * v));
+        velocities.emplace_back(std::cos(2.0 * v), std::sin(4.0 * v), 1 + std::cos(6.0 * v));
+    }
+    cloth.seam_pairs = {{0, 6}, {7, 13}, {14, 20}, {1, vertices - 1}};
+    const FabricTable fabrics = {{specimen_fabric, isotropic_fabric(10, 1e-5, 0, 0.2)}};
+    Params params;
+    params.membrane.scale = 1;
+    Vec3 centre[2], total[2];
+    for (const bool joined : {false, true}) {
+        const State s = make_state(make_topology(cloth, joined), cloth, fabrics, params, cloth.positions, velocities);
+        centre[joined] = total[joined] = Vec3::Zero();
+        for (int v = 0; v < s.size.vertex_count; ++v)
+            for (int c = 0; c < 3; ++c) {
+                centre[joined][c] += s.mass[v] * s.pos[c * s.size.vertex_stride + v];
+                total[joined][c] += s.mass[v] * s.vel[c * s.size.vertex_stride + v];
+            }
+    }
+    report.from("conservation of mass and momentum");
+    report.absolute("seams join: change of momentum, relative", 0, (total[1] - total[0]).norm() / total[0].norm(), 1e-12);
+    report.absolute("seams join: change of the centre of mass, relative", 0,
+                    (centre[1] - centre[0]).norm() / centre[0].norm(), 1e-12);
+}
+
+}  // namespace
+
+void check_integrators(CaseReport& report)
+{
+    report.from("oscillation_references.csv: closed forms of each scheme");
+    step_factors(report);
+    report.from("oscillation_references.csv: closed form");
+    damped(report);
+    long_run(report);
+    for (const IntegratorInfo& info : integrators()) {
+        if (info.order == 0) continue;
+        report.from("theory of the scheme");
+        report.absolute(fmt::format("{}: observed order", info.name), info.order,
+                        observed_order(info.name, info.is_explicit ? 100 : info.order == 1 ? 1600 : 200), 0.15);
+        free_fall(report, info);
+        rotation(report, info);
+    }
+    joining(report);
+}
+
+}  // namespace selvage

@@ -1,0 +1,109 @@
+// Patch tests of the membrane: uniform strains on an irregular mesh, stretch_patch_tests.csv.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "validation/cases/cases.hpp"
+#include "validation/cases/reference.hpp"
+#include "validation/cases/specimen.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr double width = 0.6, height = 0.4, stiffness = 100;   // [m], [m], [N/m]
+
+Mat2 matrix(const ReferenceRow& row, const std::string& name)
+{
+    Mat2 m;
+    m << row.number(name + "11"), row.number(name + "12"), row.number(name + "21"), row.number(name + "22");
+    return m;
+}
+
+// The fabric of a model of the table; a model that is not listed here is left out.
+bool fabric_of(const ReferenceRow& row, Fabric& fabric)
+{
+    if (row.text("model") != "stvk") return false;
+    fabric = isotropic_fabric(stiffness, 0, row.number("nu"), 1);
+    return true;
+}
+
+struct Mismatch {
+    double force = 0, energy = 0;   // relative
+};
+
+// Vertices of the edge on which x (axis 0) or y (axis 1) is largest.
+std::vector<int> far_edge(const Cloth& cloth, int axis)
+{
+    std::vector<int> edge;
+    for (int v = 0; v < int(cloth.positions.size()); ++v)
+        if (cloth.panel_coordinates[v][axis] > (axis == 0 ? width : 0.5 * height) - 1e-9) edge.push_back(v);
+    return edge;
+}
+
+bool on_rim(const Vec2& x, bool ends_only)
+{
+    const bool end = x.x() < 1e-9 || x.x() > width - 1e-9;
+    return end || (!ends_only && std::abs(x.y()) > 0.5 * height - 1e-9);
+}
+
+// Holds the rim (or its two ends) in the strained place and lets everything else find its own.
+Mismatch patch(const ReferenceRow& row, const Fabric& fabric)
+{
+    const Mat2 strain = matrix(row, "F"), stress = matrix(row, "P");
+    const bool free_sides = row.text("case") == "uniaxial_free";
+    Cloth cloth = flat_rectangle("irregular", width, height, 13);
+    for (int v = 0; v < int(cloth.positions.size()); ++v) {
+        const Vec2 x = strain * cloth.panel_coordinates[v];
+        const bool held = on_rim(cloth.panel_coordinates[v], free_sides);
+        if (held) cloth.pinned.push_back(v);
+        cloth.positions[v] = Vec3(x.x() + (held ? 0 : 1e-3 * std::sin(7.0 * v)), x.y(), 0);
+    }
+    Params params;
+    params.membrane.scale = 1;
+    Specimen sheet(cloth, fabric, params, Solve::direct_in_plane);
+    sheet.balance(1e-11);
+    Mismatch mismatch;
+    const double area = width * height, energy = row.number("W") * area;
+    mismatch.energy = std::abs(sheet.newton().potential_energy() - energy) / energy;
+    for (const int axis : {0, 1}) {
+        const double side = axis == 0 ? height : width;
+        Vec3 total = Vec3::Zero();
+        for (const int v : far_edge(cloth, axis)) total += sheet.holding_force(v);
+        // The free side bears no load; its corners belong to the held ends.
+        if (axis == 1 && free_sides) continue;
+        const Vec2 expected = side * stress.col(axis);
+        mismatch.force = std::max(mismatch.force, (total.head<2>() - expected).norm() / (side * stress.norm()));
+    }
+    return mismatch;
+}
+
+}  // namespace
+
+void check_stretch(CaseReport& report)
+{
+    report.from("stretch_patch_tests.csv: closed forms, 30 digits");
+    struct Worst {
+        Mismatch mismatch;
+        int count = 0;
+    };
+    std::map<std::string, Worst> worst;
+    for (const ReferenceRow& row : reference_table("stretch_patch_tests.csv")) {
+        Fabric fabric;
+        if (!fabric_of(row, fabric)) continue;
+        Worst& at = worst[fmt::format("{}, nu {:g}, {}", row.text("model"), row.number("nu"), row.text("case"))];
+        const Mismatch mismatch = patch(row, fabric);
+        at.mismatch.force = std::max(at.mismatch.force, mismatch.force);
+        at.mismatch.energy = std::max(at.mismatch.energy, mismatch.energy);
+        ++at.count;
+    }
+    for (const auto& [name, at] : worst) {
+        report.absolute(fmt::format("{}: edge force, worst of {} strains, relative", name, at.count), 0,
+                        at.mismatch.force, 1e-10);
+        report.absolute(fmt::format("{}: energy, worst of {} strains, relative", name, at.count), 0,
+                        at.mismatch.energy, 1e-10);
+    }
+}
+
+}  // namespace selvage
