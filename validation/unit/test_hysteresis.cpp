@@ -99,8 +99,8 @@ private:
         for (const Face& f : cloth_.faces) {
             int at_end = 0;
             for (int v : f) at_end += std::abs(cloth_.positions[v][axis_]) > end - 1e-9;
-            const Vec3 a = cloth_.positions[f[1]] - cloth_.positions[f[0]], b = cloth_.positions[f[2]] - cloth_.positions[f[0]];
-            if (at_end < 2) total += 0.5 * a.cross(b).norm();
+            const Vec3 &x = cloth_.positions[f[0]], &y = cloth_.positions[f[1]], &z = cloth_.positions[f[2]];
+            if (at_end < 2) total += 0.5 * (y - x).cross(z - x).norm();
         }
         return total;
     }
@@ -200,7 +200,8 @@ TEST_CASE("a strip that its weight has bent keeps part of the bend only with hys
 
 TEST_CASE("hysteresis takes no memory unless the scene asks for it and a fabric has it", "[plan]")
 {
-    const std::string size = "sheet.resolution=9", fabric = "sheet.fabric=wool_suiting", asked = "bending.hysteresis=true";
+    const std::string size = "sheet.resolution=9", fabric = "sheet.fabric=wool_suiting";
+    const std::string asked = "bending.hysteresis=true";
     CHECK(allocates_anchors(plan_of({size, fabric, asked})));
     CHECK_FALSE(allocates_anchors(plan_of({size, fabric})));
     CHECK_FALSE(allocates_anchors(plan_of({size, "sheet.fabric=cotton", asked})));
