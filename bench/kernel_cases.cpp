@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/kernel_traffic.hpp"
+#include "host/solver/anchors.hpp"
 #include "host/solver/newton.hpp"
 
 namespace selvage {
@@ -124,6 +125,7 @@ std::size_t newton_bytes(const KernelCloth& cloth, const NewtonReport& report, c
     // Values and forces of conservative terms are recorded under one name.
     const std::size_t gradients = calls("gather_forces"), objectives = calls("gravity") - gradients;
     std::size_t total = calls("body_query") * body_query_bytes(state) + settle_friction_bytes(state) +
+                        settle_hysteresis_bytes(state) +
                         gradients * (clear_forces_bytes(state) + gather_bytes(state)) +
                         calls("assemble") * (clear_stiffness_bytes(state) + assemble_bytes(state, cloth.pattern));
     for (const Term& term : all_terms())
@@ -163,6 +165,9 @@ std::vector<KernelCase> kernel_cases(KernelCloth& cloth)
     add_terms(cloth, TermPart::value, cases);
     cases.push_back(vertex_case(cloth, "settle_friction", settle_friction_bytes(state),
                                 [&cloth] { settle_friction(cloth.state, cloth.params); }));
+    cases.push_back({.name = "settle_hysteresis", .item = "hinge", .items = state.size.hinge_count,
+                     .bytes = settle_hysteresis_bytes(state),
+                     .run = [&cloth] { settle_hysteresis(cloth.state, cloth.params); }});
     cases.push_back(newton_case(cloth));
     return cases;
 }

@@ -43,6 +43,7 @@ FabricTable one_fabric()
     Fabric fabric;
     fabric.name = "cotton";
     fabric.stretch_coupling = 60;
+    fabric.hysteresis_weft = fabric.hysteresis_warp = 1e-3;
     return {{fabric.name, fabric}};
 }
 
@@ -84,6 +85,7 @@ KernelCloth::KernelCloth(int vertex_count) : params(all_strengths())
     vel_ = state.vel;
     anchor_ = state.friction_anchor;
     limit_ = state.friction_limit;
+    hinge_anchor_ = state.hinge_anchor;
 
     pattern = make_pattern(state);
     connect_levels(cloth, topology, resolution);
@@ -148,6 +150,7 @@ void KernelCloth::reset()
     state.pos = pos_;
     state.vel = vel_;
     state.friction_anchor = anchor_;
+    state.hinge_anchor = hinge_anchor_;
     state.friction_limit = limit_;
     contact->update(state);
 }

@@ -39,7 +39,7 @@ private:
     void connect_levels(const Cloth& cloth, const Topology& topology, int resolution);
     void load_friction();
 
-    std::vector<real> pos_, vel_, anchor_, limit_;
+    std::vector<real> pos_, vel_, anchor_, limit_, hinge_anchor_;
 };
 
 }  // namespace selvage

@@ -158,6 +158,12 @@ std::size_t settle_friction_bytes(const State& state)
            2 * pass_bytes(state, {Field::friction_anchor, Field::friction_limit});
 }
 
+std::size_t settle_hysteresis_bytes(const State& state)
+{
+    return pass_bytes(state, {Field::pos, Field::hinge_vertex, Field::hinge_rest_sine, Field::hinge_width}) +
+           2 * pass_bytes(state, {Field::hinge_anchor});
+}
+
 std::size_t body_query_bytes(const State& state)
 {
     return pass_bytes(state, {Field::pos, Field::contact_normal, Field::contact_offset}) +

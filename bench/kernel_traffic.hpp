@@ -22,6 +22,7 @@ std::size_t clear_forces_bytes(const State& state);      ///< Written.
 std::size_t clear_stiffness_bytes(const State& state);   ///< Written.
 std::size_t gather_bytes(const State& state);            ///< Slot lists, element forces and the forces they are added to.
 std::size_t settle_friction_bytes(const State& state);
+std::size_t settle_hysteresis_bytes(const State& state);
 /// Of the query's arguments: positions, normals, offsets and bodies. What a search reads of the body is not counted.
 std::size_t body_query_bytes(const State& state);
 

@@ -63,7 +63,7 @@ std::string model_fingerprint(const SceneModel& model)
     for (const auto& pair : cloth.seam_pairs) print.add(pair);
     for (const auto& [name, f] : model.model.fabrics)
         for (double value : {f.areal_density, f.stretch_weft, f.stretch_warp, f.stretch_coupling, f.shear,
-                             f.bending_weft, f.bending_warp, f.friction, f.damping})
+                             f.bending_weft, f.bending_warp, f.hysteresis_weft, f.hysteresis_warp, f.friction, f.damping})
             print.add(value);
     for (const auto& [name, f] : model.model.fabrics)
         for (const StressCurve& curve : membrane_curves(f))
@@ -93,6 +93,7 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
     checkpoint.reals["vel"] = state.vel;
     checkpoint.reals["friction_anchor"] = state.friction_anchor;
     checkpoint.reals["friction_limit"] = state.friction_limit;
+    checkpoint.reals["hinge_anchor"] = state.hinge_anchor;
     for (const auto& [name, seconds] : p.counters.phases) checkpoint.reals["phase_" + name] = {seconds};
     const auto history = integrator.history();
     for (std::size_t k = 0; k < history.size(); ++k) checkpoint.reals[history_name(k)] = *history[k];
@@ -136,6 +137,7 @@ void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase
     take("vel", state.vel);
     take("friction_anchor", state.friction_anchor);
     take("friction_limit", state.friction_limit);
+    take("hinge_anchor", state.hinge_anchor);
     const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
     phase.params().seam.stiffness = sewing[6];
     phase.params().seam.force_limit = sewing[7];

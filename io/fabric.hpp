@@ -27,6 +27,8 @@ struct Fabric {
     double bending_warp = 1e-5;       ///< Bending rigidity when bent along warp [N m].
     double bending_coupling = 0;      ///< Couples both curvatures [N m]; its square is below weft * warp.
     double bending_twist = std::numeric_limits<double>::quiet_NaN();  ///< Moment per twist [N m]; NaN: see twist_rigidity.
+    double hysteresis_weft = 0;       ///< Width 2HB of the moment loop when bent along weft and back [N], as KES-FB2; 0: none.
+    double hysteresis_warp = 0;       ///< The same along warp [N].
     double friction = 0.3;            ///< Coulomb coefficient against a body [1].
     double damping = 0.5;             ///< Viscous drag per unit mass [1/s].
     StressCurve stretch_weft_curve;   ///< Empty: straight, with slope stretch_weft; else that is its slope at 0.

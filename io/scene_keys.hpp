@@ -75,6 +75,8 @@
     KEY(double, bending_warp, automatic, "N m", 0, 1, "bending rigidity along warp")                             \
     KEY(double, bending_coupling, automatic, "N m", 0, 1, "rigidity that couples the curvatures along weft and warp; automatic: 0") \
     KEY(double, bending_twist, automatic, "N m", 0, 1, "moment per twist d2z/dxdy; automatic: 2 (sqrt(weft warp) - coupling), as isotropic sheets have") \
+    KEY(double, hysteresis_weft, automatic, "N", 0, 0.1, "2HB along weft as KES-FB2 measures it: width of the moment loop per width of fabric; 0, the default: none; only with bending.hysteresis") \
+    KEY(double, hysteresis_warp, automatic, "N", 0, 0.1, "2HB along warp, as for weft")                          \
     KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient against a body")                           \
     KEY(double, damping, automatic, "1/s", 0, 1000, "viscous drag per unit mass")                                \
     WORD(source, "", "", "where the values come from")
@@ -115,7 +117,8 @@
 
 #define BENDING_KEYS(KEY, WORD, VEC3)                                                                            \
     WORD(model, "automatic", "automatic|plate|hinge|springs|none", "bending model: plate shows the fabric's rigidity on any mesh, plain hinges err by 0.75 to 3 times, springs match it at a curvature of 50/m only; automatic: springs if the membrane is of springs, else plate") \
-    KEY(double, scale, 1, "1", 0, 1e6, "multiplies every bending rigidity")
+    KEY(double, scale, 1, "1", 0, 1e6, "multiplies every bending rigidity")                                      \
+    KEY(bool, hysteresis, false, "1", 0, 1, "friction as the cloth bends, from the fabrics' hysteresis_weft and hysteresis_warp: folds partly stay; not while sewing")
 
 #define SEAMS_KEYS(KEY, WORD, VEC3)                                                                              \
     KEY(double, stiffness, 4e4, "N/m^2", 1e-1, 1e9, "seam force per metre of seam and metre of gap")             \

@@ -5,6 +5,7 @@
 //         stage   kernel that is launched over the term's items before each of its functions, or no_stage
 #pragma once
 #include "terms/bending.h"
+#include "terms/bending_hysteresis.h"
 #include "terms/body_contact.h"
 #include "terms/curved_membrane.h"
 #include "terms/damping.h"
@@ -15,14 +16,15 @@
 #include "terms/seam.h"
 #include "terms/spring.h"
 
-#define TERMS(TERM)                                       \
-    TERM(gravity, vertex, conservative, no_stage)         \
-    TERM(membrane, face, conservative, no_stage)          \
-    TERM(curved_membrane, face, conservative, no_stage)   \
-    TERM(spring, spring, conservative, no_stage)          \
-    TERM(bending, hinge, conservative, no_stage)          \
-    TERM(plate, hinge, conservative, plate_turns)         \
-    TERM(seam, stitch, conservative, no_stage)            \
-    TERM(damping, vertex, dissipative, no_stage)          \
-    TERM(body_contact, vertex, conservative, no_stage)    \
+#define TERMS(TERM)                                         \
+    TERM(gravity, vertex, conservative, no_stage)           \
+    TERM(membrane, face, conservative, no_stage)            \
+    TERM(curved_membrane, face, conservative, no_stage)     \
+    TERM(spring, spring, conservative, no_stage)            \
+    TERM(bending, hinge, conservative, no_stage)            \
+    TERM(plate, hinge, conservative, plate_turns)           \
+    TERM(bending_hysteresis, hinge, conservative, no_stage) \
+    TERM(seam, stitch, conservative, no_stage)              \
+    TERM(damping, vertex, dissipative, no_stage)            \
+    TERM(body_contact, vertex, conservative, no_stage)      \
     TERM(friction, vertex, conservative, no_stage)

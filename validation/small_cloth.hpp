@@ -66,6 +66,8 @@ inline FabricTable test_fabrics()
     fabric.shear = 0.7;
     fabric.bending_weft = 0.02;
     fabric.bending_warp = 0.01;
+    fabric.hysteresis_weft = 0.3;
+    fabric.hysteresis_warp = 0.2;
     return {{"test", fabric}};
 }
 
@@ -109,6 +111,7 @@ inline State crumpled_state(const Params& params, unsigned seed = 7)
         state.friction_limit[v] = 1 + uniform(random);
     }
     for (int h = 0; h < state.size.hinge_count; ++h) state.hinge_rest_sine[h] = 0.2 * uniform(random);
+    for (int h = 0; h < state.size.hinge_count; ++h) state.hinge_anchor[h] = 0.5 * uniform(random);
     return state;
 }
 

@@ -1,5 +1,6 @@
 #include "host/solver/cloth_state.hpp"
 
+#include "host/solver/hysteresis.hpp"
 #include "host/solver/plate.hpp"
 #include "host/solver/terms.hpp"
 
@@ -14,6 +15,7 @@ State make_state(const Topology& topology, const Cloth& cloth, const FabricTable
     State state(topology_sizes(topology, int(fabrics.size()), plate.entries()), fields);
     fill_state(state, topology, cloth, fabrics, positions, velocities);
     if (plated) fill_plate(state, plate);
+    if (!state.hinge_hysteresis.empty()) fill_hysteresis(state, topology, cloth, fabrics);
     return state;
 }
 

@@ -13,10 +13,10 @@ constexpr int steps_between = 8;    // motion after a static attempt that did no
 
 // What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
 struct SavedShape {
-    std::vector<real> pos, vel, anchor, limit;
+    std::vector<real> pos, vel, anchor, limit, hinge_anchor;
 };
 
-SavedShape shape_of(const State& s) { return {s.pos, s.vel, s.friction_anchor, s.friction_limit}; }
+SavedShape shape_of(const State& s) { return {s.pos, s.vel, s.friction_anchor, s.friction_limit, s.hinge_anchor}; }
 
 void restore(State& state, const SavedShape& saved)
 {
@@ -24,6 +24,7 @@ void restore(State& state, const SavedShape& saved)
     state.vel = saved.vel;
     state.friction_anchor = saved.anchor;
     state.friction_limit = saved.limit;
+    state.hinge_anchor = saved.hinge_anchor;
 }
 
 // Minimises the static energy. It never rises, so an attempt that falls short still leaves the cloth nearer to rest.

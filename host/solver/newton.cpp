@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/solver/anchors.hpp"
 #include "host/solver/launch.hpp"
 #include "kernels/stages/limit_step.h"
 
@@ -172,7 +173,7 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
     NewtonReport report;
     for (;; ++report.iterations) {
         if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
-        if (settle_each) settle_friction(state_, params_);
+        if (settle_each) settle_anchors(state_, params_);
         evaluate_gradient();
         report.residual = gradient_norm() / force_scale_;
         report.converged = report.residual <= options.tolerance;
@@ -204,7 +205,7 @@ NewtonReport Newton::step(double dt, const NewtonOptions& options)
     base_ = state_.pos;
     for_each_item(int(base_.size()), [this, dt](int i) { direction_[i] = base_[i] + dt * state_.vel[i]; });
     const NewtonReport report = minimise(dt, base_, direction_, options);
-    settle_friction(state_, params_);
+    settle_anchors(state_, params_);
     return report;
 }
 

@@ -36,14 +36,14 @@ public:
     /// @param contact may be null: no bodies. All references must outlive this object.
     Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, Profile& profile);
 
-    /// Moves state.pos to the minimum and state.vel to (x - origin) / span; friction anchors stay as they are.
+    /// Moves state.pos to the minimum and state.vel to (x - origin) / span; anchors stay as they are.
     /// @param span    h of the objective [s], > 0
     /// @param origin  planes like pos [m]; at pinned vertices it must equal pos, as must target
     NewtonReport minimise(double span, const std::vector<real>& origin, const std::vector<real>& target,
                           const NewtonOptions& options);
     /// One implicit Euler step: state.pos and state.vel move from t to t + dt. @param dt [s], > 0
     NewtonReport step(double dt, const NewtonOptions& options);
-    /// Iterations on the static energy; state.vel becomes zero, friction settles after each.
+    /// Iterations on the static energy; state.vel becomes zero, anchors settle after each.
     NewtonReport relax(const NewtonOptions& options);
 
     /// Norm of the net conservative force on free vertices over that of gravity (or of `force_scale` if larger) [1].

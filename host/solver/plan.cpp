@@ -42,6 +42,11 @@ bool any_friction(const SceneModel& model)
     return std::any_of(model.model.bodies.begin(), model.model.bodies.end(), rubs);
 }
 
+bool any_hysteresis(const SceneModel& model)
+{
+    return any_fabric(model, &Fabric::hysteresis_weft) || any_fabric(model, &Fabric::hysteresis_warp);
+}
+
 Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
 {
     Params params;
@@ -61,6 +66,9 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
     const bool plates = scene.bending.model == "plate" || (scene.bending.model == "automatic" && !bend_springs);
     (bend_springs ? params.spring.bend_scale : plates ? params.plate.scale : params.bending.scale) =
         scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
+    // Sewing is not how a garment came to its shape: hysteresis would only keep the folds it left.
+    const bool hysteresis = scene.bending.hysteresis && scene.bending.model != "none" && !sewing;
+    params.bending_hysteresis.scale = hysteresis && any_hysteresis(model) ? 1 : 0;
     params.damping.scale = any_fabric(model, &Fabric::damping) ? 1 : 0;
     if (sewing) {
         params.bending.scale *= scene.seams.stiffening;
@@ -129,6 +137,8 @@ std::string absence(const Scene& scene, const SceneModel& model, std::string_vie
     if (term == "curved_membrane" && membrane) return "no fabric has a stress curve or limit";
     if (term == "membrane" || term == "curved_membrane") return "membrane.model is none or its scale is zero";
     if (term == "bending" || term == "plate") return "bending.model is none, or no fabric has a bending rigidity";
+    if (term == "bending_hysteresis" && !scene.bending.hysteresis) return "bending.hysteresis is false";
+    if (term == "bending_hysteresis") return "bending.model is none, or no fabric has bending hysteresis";
     if (term == "seam") return "there are no seams";
     if (term == "damping") return "no fabric has damping";
     if (!bodies) return "there are no bodies";

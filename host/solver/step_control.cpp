@@ -30,6 +30,7 @@ void StepControl::keep(Saved& saved)
     saved.vel = state.vel;
     saved.anchor = state.friction_anchor;
     saved.limit = state.friction_limit;
+    saved.hinge_anchor = state.hinge_anchor;
     const auto arrays = integrator_.history();
     saved.history.resize(arrays.size());
     for (std::size_t k = 0; k < arrays.size(); ++k) saved.history[k] = *arrays[k];
@@ -42,6 +43,7 @@ void StepControl::restore(const Saved& saved)
     state.vel = saved.vel;
     state.friction_anchor = saved.anchor;
     state.friction_limit = saved.limit;
+    state.hinge_anchor = saved.hinge_anchor;
     const auto arrays = integrator_.history();
     for (std::size_t k = 0; k < arrays.size(); ++k) *arrays[k] = saved.history[k];
 }

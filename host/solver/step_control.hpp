@@ -69,7 +69,7 @@ public:
 
 private:
     struct Saved {
-        std::vector<real> pos, vel, anchor, limit;
+        std::vector<real> pos, vel, anchor, limit, hinge_anchor;
         std::vector<std::vector<real>> history;
     };
 

@@ -165,7 +165,7 @@ void fill_hinges(State& state, const Topology& topology, const Cloth& cloth, con
             squared_length += 0.5 * edge.squaredNorm();
         }
         for (int k = 0; k < 4; ++k) state.hinge_vertex[k * hs + h] = topology.hinges[h][k];
-        state.hinge_rigidity[h] = rigidity * squared_length / area;
+        if (!state.hinge_rigidity.empty()) state.hinge_rigidity[h] = rigidity * squared_length / area;
     }
 }
 

@@ -198,17 +198,23 @@ class Interrupted(Folder):
         self.interrupt(SHEET, signal.SIGINT, self.progressed("drape", 10))
         self.check_resumed(SHEET)
 
+    def check_bit_by_bit(self, *more):
+        scene = ["builtin:hanging", "--set", "sheet.resolution=41", "--set", "solver.until=0.6",
+                 "--set", "output.precision=lossless", *more]
+        self.interrupt(scene, signal.SIGINT, self.progressed("drape", 5))
+        result = run(self.folder, scene, "--resume")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = run(self.path("reference"), scene)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        np.testing.assert_array_equal(last_positions(self.folder), last_positions(self.path("reference")))
+
     def test_integrators_with_a_memory_go_on_bit_by_bit(self):
         for name in ["bdf2", "central_difference", "velocity_verlet"]:
             with self.subTest(name), tempfile.TemporaryDirectory() as self.folder:
-                scene = ["builtin:hanging", "--set", "sheet.resolution=41", "--set", "solver.until=0.6",
-                         "--set", f"solver.integrator={name}", "--set", "output.precision=lossless"]
-                self.interrupt(scene, signal.SIGINT, self.progressed("drape", 5))
-                result = run(self.folder, scene, "--resume")
-                self.assertEqual(result.returncode, 0, result.stderr)
-                result = run(self.path("reference"), scene)
-                self.assertEqual(result.returncode, 0, result.stderr)
-                np.testing.assert_array_equal(last_positions(self.folder), last_positions(self.path("reference")))
+                self.check_bit_by_bit("--set", f"solver.integrator={name}")
+
+    def test_bending_hysteresis_goes_on_bit_by_bit(self):
+        self.check_bit_by_bit("--set", "bending.hysteresis=true", "--set", "sheet.fabric=matsudaira_cotton_broad")
 
     def test_a_request_to_terminate(self):
         self.interrupt(SHEET, signal.SIGTERM, self.progressed("drape", 10))

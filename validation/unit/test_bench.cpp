@@ -33,7 +33,7 @@ std::vector<std::string> expected_names()
 {
     std::vector<std::string> names = {"body_query", "clear_forces", "gather_forces", "clear_stiffness", "assemble",
                                       "matrix_product", "precondition/block_jacobi", "precondition/multigrid", "dot",
-                                      "axpy", "settle_friction", "newton_iteration"};
+                                      "axpy", "settle_friction", "settle_hysteresis", "newton_iteration"};
     for (const Term& term : all_terms())
         for (const char* part : {"/value", "/force", "/stiffness"}) names.push_back(std::string(term.name) + part);
     return names;

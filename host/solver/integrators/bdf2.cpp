@@ -2,6 +2,7 @@
 //     (1 + 2w)/(1 + w) x1 - (1 + w) x0 + w^2/(1 + w) x(-1) = dt v1,   the same for v1 and a1
 // The first step is one of the implicit midpoint rule: with implicit Euler's, fast modes show its first order for long.
 // Source: Gear 1971; Hairer, Norsett and Wanner 1993, ch. III.5 for variable steps.
+#include "host/solver/anchors.hpp"
 #include "host/solver/integrators/list.hpp"
 #include "host/solver/integrators/vector_tools.hpp"
 #include "host/solver/phase.hpp"
@@ -48,7 +49,7 @@ public:
             last_gain_[i] *= 2;
         });
         last_dt_[0] = dt;
-        settle_friction(s, phase_.params());
+        settle_anchors(s, phase_.params());
         // At first free flight is the guess, and its error a bound.
         // Later the guess errs by -(1 + w)/w dt^3 x'''/6, the step by (1 + w)^2/(w (1 + 2w)) of it (Milne's device).
         error_ = (first ? 1 : (1 + w) / (2 + 3 * w)) * largest_distance(s, s.pos, guess_);

@@ -1,5 +1,6 @@
 #include "host/solver/integrators/explicit_scheme.hpp"
 
+#include "host/solver/anchors.hpp"
 #include "host/solver/stability.hpp"
 
 namespace selvage {
@@ -13,7 +14,7 @@ constexpr int steps_in_contact = 10;   // the same where the barrier of a body m
 NewtonReport ExplicitScheme::step(double dt, const NewtonOptions&)
 {
     move(dt);
-    settle_friction(state(), phase_.params());
+    settle_anchors(state(), phase_.params());
     ++watch_[1];
     watch_[3] = contacts();
     NewtonReport report;

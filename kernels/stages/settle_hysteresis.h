@@ -1,0 +1,18 @@
+// Ends a step for the anchor of a hinge's friction moment: beyond the stick turn r it is drawn along.
+//     anchor = phi - w min(1, r / |w|),   w = phi - anchor
+// Source: see terms/bending_hysteresis.h.
+#pragma once
+#include "../terms/bending_hysteresis.h"
+
+typedef struct {
+    bending_hysteresis_args hysteresis;
+    GLOBAL real* RESTRICT anchor;
+} settle_hysteresis_args;
+
+KERNEL_FN void settle_hysteresis_hinge(int hinge, const settle_hysteresis_args* a)
+{
+    const bending_hysteresis_args* term = &a->hysteresis;
+    hinge_state h = hinge_at(hinge, term->size, term->pos, term->hinge_vertex);
+    real w = bending_hysteresis_way(hinge, &h, term), r = term->stick_curvature * term->hinge_width[hinge];
+    if (fabs(w) > r) a->anchor[hinge] += w < REAL(0) ? w + r : w - r;
+}

@@ -1,0 +1,63 @@
+// Friction between the yarns of a bending cloth: a hinge hangs on an elastic anchor that slips at the moment L.
+//     phi = 2 (sin(theta/2) - sin(theta0/2)),  w = phi - anchor,  q = |w|,  r = stick curvature * width of the hinge
+//     q <= r:  E = L q^2 / (2 r),    M = L w / r         (sticks: returns to its anchor)
+//     q >  r:  E = L (q - r / 2),    M = L w / q         (slips: |M| = L)
+//     f_i = -M cos(theta/2) dtheta/dx_i
+// After every step the anchor is drawn along so that q <= r (stages/settle_hysteresis.h). Bent to and fro, the cloth
+// shows a moment loop of the width 2HB beside its elastic moment, whatever the mesh (host/solver/hysteresis.hpp).
+// Source: a frictional couple beside the rigidity as in Grosberg 1966 and Kawabata 1980; the elastic anchor is that of
+// terms/friction.h.
+// The projected stiffness takes M / w for dM/dphi, which is never negative and which a slipping hinge needs to see
+// that it sticks as soon as it turns back; it drops M d2phi/dx2.
+#pragma once
+#include "../hinge.h"
+
+#define bending_hysteresis_PARAMS(STRENGTH, PARAM)                                                 \
+    STRENGTH(scale, 0.0, "1", "multiplies every hinge's friction moment")                          \
+    PARAM(stick_curvature, 2.0, "1/m", "elastic change of curvature before yarns slip")
+#define bending_hysteresis_FIELDS(READ, ADD)                                                        \
+    READ(pos) READ(hinge_vertex) READ(hinge_rest_sine) READ(hinge_hysteresis) READ(hinge_width)     \
+    READ(hinge_anchor) ADD(hinge_force) ADD(hinge_stiffness)
+TERM_ARGS(bending_hysteresis)
+
+KERNEL_FN real bending_hysteresis_way(int hinge, const hinge_state* h, const bending_hysteresis_args* a)
+{
+    return REAL(2) * (h->sine - a->hinge_rest_sine[hinge]) - a->hinge_anchor[hinge];
+}
+
+KERNEL_FN real bending_hysteresis_energy(int hinge, const bending_hysteresis_args* a)
+{
+    hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
+    real q = fabs(bending_hysteresis_way(hinge, &h, a)), r = a->stick_curvature * a->hinge_width[hinge];
+    real limit = a->scale * a->hinge_hysteresis[hinge];
+    return q <= r ? limit * q * q / (REAL(2) * r) : limit * (q - REAL(0.5) * r);
+}
+
+KERNEL_FN void bending_hysteresis_force(int hinge, const bending_hysteresis_args* a)
+{
+    int hs = a->size.hinge_stride;
+    hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
+    real w = bending_hysteresis_way(hinge, &h, a), r = a->stick_curvature * a->hinge_width[hinge];
+    real moment = a->scale * a->hinge_hysteresis[hinge] * w / fmax(fabs(w), r) * h.cosine;
+    for (int i = 0; i < 4; ++i) add3(a->hinge_force + 3 * i * hs, hs, hinge, (-moment) * h.g[i]);
+}
+
+KERNEL_FN void bending_hysteresis_stiffness(int hinge, const bending_hysteresis_args* a)
+{
+    int hs = a->size.hinge_stride;
+    hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
+    real w = bending_hysteresis_way(hinge, &h, a), r = a->stick_curvature * a->hinge_width[hinge];
+    real secant = a->scale * a->hinge_hysteresis[hinge] / fmax(fabs(w), r), moment = secant * w;
+    real along = secant * h.cosine * h.cosine;
+    mat3 t[4][4];
+    if (!a->mode.projected) {
+        hinge_angle_hessian(&h, t);
+        along = (fabs(w) <= r ? along : REAL(0)) - REAL(0.5) * moment * h.sine;
+    }
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j) {
+            mat3 k = outer3(along, h.g[i], h.g[j]);
+            if (!a->mode.projected) k = mat3_add(k, mat3_scale(moment * h.cosine, t[i][j]));
+            add_block(a->hinge_stiffness, hs, hinge, block_index(4, i, j), k);
+        }
+}
