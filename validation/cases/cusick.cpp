@@ -33,6 +33,7 @@ Fabric measured_fabric(const std::string& name, double& coefficient, int& folds)
         fabric.name = "measured";
         fabric.areal_density = row.number("W_kg_m2");
         fabric.bending_weft = fabric.bending_warp = row.number("B_Nm");
+        fabric.hysteresis_weft = fabric.hysteresis_warp = row.number("2HB_N");
         fabric.thickness = 1e-3 * row.number("T_mm");
         coefficient = row.number("DC_percent");
         folds = int(row.number("nodes"));
@@ -43,7 +44,8 @@ Fabric measured_fabric(const std::string& name, double& coefficient, int& folds)
 
 Scene drape_scene(const Fabric& fabric, const Apparatus& apparatus, int across, const std::string& family)
 {
-    Scene scene = read_scene("builtin:cusick", {});
+    const std::vector<std::string> friction = {fmt::format("bending.hysteresis={}", fabric.hysteresis_weft > 0)};
+    Scene scene = read_scene("builtin:cusick", friction);
     scene.sheets[0].radius = apparatus.specimen;
     scene.sheets[0].resolution = across;
     scene.sheets[0].mesh_family = family;

@@ -7,7 +7,7 @@
 #include "host/solver/anchors.hpp"
 #include "host/solver/equilibrium.hpp"
 #include "host/solver/plan.hpp"
-#include "validation/unit/small_cloth.hpp"
+#include "validation/small_cloth.hpp"
 
 using namespace selvage;
 
