@@ -64,7 +64,7 @@ void add_motions(const IntegratorInfo& info, double until, double limit, bool qu
         return;
     }
     struct Iterations { double tolerance, still; int most; };
-    for (int steps = 4; steps <= (quick ? 64 : 1024); steps *= 2)
+    for (int steps = 4; steps <= (quick ? 64 : 256); steps *= 2)
         for (const Iterations& it : {Iterations{1e-2, 3e-2, 1}, Iterations{1e-2, 3e-2, 3}, Iterations{1e-2, 3e-2, 0}, Iterations{1e-4, 1e-3, 0}})
             for (bool single : {true, false}) {
                 if (!single && (quick || it.tolerance > 1e-3)) continue;

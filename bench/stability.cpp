@@ -33,6 +33,7 @@ const std::vector<CellKind>& kinds()
     static const std::vector<CellKind> all = {{"stable", {86, 160, 96}},       {"recovered", {236, 200, 84}},
                                               {"refused, with a message", {126, 156, 220}},
                                               {"gave up, with a message", {168, 128, 190}},
+                                              {"slow: time limit", {200, 200, 200}},
                                               {"hung", {120, 60, 30}},         {"garbage", {210, 40, 40}}};
     return all;
 }

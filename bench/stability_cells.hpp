@@ -23,10 +23,11 @@ enum class StabilityVerdict {
     recovered,   ///< Some steps failed and were taken in shorter ones.
     refused,     ///< Above the explicit limit: not begun, with a message that names the limit.
     gave_up,     ///< Stopped with a message, the last good state kept.
-    hung,        ///< Took longer than a minute.
-    garbage      ///< Reported as good, but not finite, or with more energy than it started with or gravity gave.
+    slow,        ///< Stopped by its limit of 20 s, its steps being good.
+    hung,        ///< A single step took longer than a minute.
+    garbage      ///< Not finite, or with half more energy than it started with or gravity gave.
 };
-constexpr int verdict_count = 6;
+constexpr int verdict_count = 7;
 
 struct StabilityResult {
     StabilityCell cell;

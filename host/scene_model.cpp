@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -23,9 +23,10 @@ constexpr int coarsest_vertices = 300;   // factorising this costs less than a f
 // A scene whose mesh alone could not be held is refused before it is made; the plan then counts exactly.
 constexpr double bytes_per_vertex = 3000;
 
-// A level sheet has nothing that tells it which way to fold: every vertex starts off its plane by up to this part of
-// an edge, in a fixed pattern.
-constexpr double ripple = 1e-3;
+// A level sheet has nothing that tells it which way to fold: it starts off its plane by up to this part of its extent,
+// in a smooth pattern that does not depend on the mesh, so that finer meshes fold alike.
+constexpr double ripple = 1e-4;
+constexpr int ripple_waves = 7;
 
 MannequinMeasures body_measures(const BodyScene& body)
 {
@@ -76,7 +77,19 @@ void check_sheet_size(const Scene& scene, int index)
                      fmt::format("at most {:.3g} vertices (solver.memory_limit)", most));
 }
 
-void add_ripple(Cloth& cloth, double edge_length)
+// A sum of plane waves, 1 to 4 across the extent, in directions that share no symmetry; in [-1, 1].
+double ripple_at(const Vec2& x)
+{
+    double sum = 0;
+    for (int wave = 0; wave < ripple_waves; ++wave) {
+        const double angle = 2.399963 * (wave + 1);   // the golden angle
+        const double number = 2 * std::numbers::pi * (1 + 0.5 * wave);
+        sum += std::cos(number * (x.x() * std::cos(angle) + x.y() * std::sin(angle)) + 1.7 * wave);
+    }
+    return sum / ripple_waves;
+}
+
+void add_ripple(Cloth& cloth)
 {
     std::vector<char> held(cloth.positions.size());
     for (int v : cloth.pinned) held[v] = 1;
@@ -85,10 +98,9 @@ void add_ripple(Cloth& cloth, double edge_length)
         const Vec3 normal = (cloth.positions[f[1]] - cloth.positions[f[0]])
                                 .cross(cloth.positions[f[2]] - cloth.positions[f[0]])
                                 .normalized();
-        for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v) {
-            const std::uint32_t hash = std::uint32_t(v) * 2654435761u;
-            if (!held[v]) cloth.positions[v] += ripple * edge_length * (double(hash >> 8) / (1 << 24) - 0.5) * normal;
-        }
+        const double extent = 2 * std::sqrt(panel.rest_area / std::numbers::pi);
+        for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v)
+            if (!held[v]) cloth.positions[v] += ripple * extent * ripple_at(cloth.panel_coordinates[v] / extent) * normal;
     }
 }
 
@@ -167,7 +179,7 @@ SceneModel build_scene_model(const Scene& scene)
     result.warnings.insert(result.warnings.end(), odd.begin(), odd.end());
     result.sews = !result.model.cloth.seam_pairs.empty();
     result.edge_length = typical_edge(result.model.cloth);
-    if (!scene.has_garment()) add_ripple(result.model.cloth, result.edge_length);
+    if (!scene.has_garment()) add_ripple(result.model.cloth);
     return result;
 }
 

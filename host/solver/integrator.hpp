@@ -39,6 +39,8 @@ public:
     virtual std::vector<std::vector<real>*> history() { return {}; }
     /// Largest error of a vertex that the last step has made, to leading order [m].
     virtual double error_estimate() const { return 0; }
+    /// True if steps that are too long may add energy: such a step is then refused.
+    virtual bool may_gain_energy() const { return info().is_explicit; }
     /// Longest step at which small motions stay bounded at the present state [s]; infinite: any.
     virtual double stable_step() { return std::numeric_limits<double>::infinity(); }
 };

@@ -79,7 +79,7 @@ private:
     bool attempt(double dt, const NewtonOptions& options, bool accurate);
     bool too_inaccurate(double dt);
     bool passed_into_body(bool last);
-    bool keeps_energy(double span, double kinetic_before, double potential_before) const;
+    bool keeps_energy(double span, double kinetic_before, double potential_before);
     void shrink(double dt);
 
     Phase& phase_;
@@ -89,6 +89,8 @@ private:
     double taken_ = 0, shortest_ = 0;
     double floor_ = 0;            ///< Steps below it mean that the run has diverged [s].
     double limit_ = std::numeric_limits<double>::infinity();
+    double first_energy_ = std::numeric_limits<double>::quiet_NaN();   ///< Kinetic and potential, at the first step [J].
+    double highest_kinetic_ = 0, lowest_potential_ = 0;                ///< Before any step so far [J].
     int retries_ = 0;
     NewtonReport report_;
     Saved start_, last_;

@@ -17,6 +17,8 @@ public:
             v->assign(phase.state().pos.size(), 0);
     }
     const IntegratorInfo& info() const override { return info_; }
+    // It keeps the energy of linear motion only.
+    bool may_gain_energy() const override { return true; }
     void restart() override { last_dt_[0] = 0; }
     std::vector<std::vector<real>*> history() override { return {&acceleration_, &last_dt_}; }
     double error_estimate() const override { return error_; }
