@@ -113,6 +113,13 @@ std::string row_of(const StabilityCell& cell)
     return fmt::format("x{:g} {} {}", cell.stiffness, name_of(cell.start), cell.damping > 0 ? "d" : "");
 }
 
+// 3e-4 instead of 0.0003 or 3e-04.
+std::string step_label(double step)
+{
+    const int power = int(std::floor(std::log10(step) + 1e-9));
+    return fmt::format("{:.0f}e{}", step / std::pow(10.0, power), power);
+}
+
 CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integrator, int resolution)
 {
     CellMap map;
@@ -121,7 +128,7 @@ CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integ
     map.row_label = "stiffness, start, d: damped";
     for (const StabilityResult& r : cells) {
         if (r.cell.integrator != integrator || r.cell.resolution != resolution) continue;
-        const std::string column = fmt::format("{:g}", r.cell.step), row = row_of(r.cell);
+        const std::string column = step_label(r.cell.step), row = row_of(r.cell);
         if (std::find(map.columns.begin(), map.columns.end(), column) == map.columns.end()) map.columns.push_back(column);
         if (map.rows.empty() || map.rows.back() != row) map.rows.push_back(row);
         map.kind.push_back(int(r.verdict));
@@ -135,7 +142,7 @@ Image picture(const Survey& survey)
     for (int resolution : {16, 32, 64, 128})
         for (const IntegratorInfo& info : integrators()) {
             const CellMap map = map_of(survey.cells, info.name, resolution);
-            if (!map.kind.empty()) maps.push_back(draw_cell_map(map, kinds(), 420, 460));
+            if (!map.kind.empty()) maps.push_back(draw_cell_map(map, kinds(), 480, 460));
         }
     const int across = int(std::count_if(integrators().begin(), integrators().end(),
                                          [](const IntegratorInfo& info) { return info.order > 0; }));

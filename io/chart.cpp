@@ -176,7 +176,7 @@ Image draw_cell_map(const CellMap& map, const std::vector<CellKind>& kinds, int 
 {
     cv::Mat picture = canvas(width, height);
     const int columns = int(map.columns.size()), rows = int(map.rows.size());
-    const int left = 96, top = 40, right = width - 12, bottom = height - 52;
+    const int left = 160, top = 40, right = width - 12, bottom = height - 52;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
             const Rgb& c = kinds[std::size_t(map.kind[std::size_t(row * columns + column)])].colour;

@@ -72,6 +72,17 @@ class MachineReadable(unittest.TestCase):
         json.loads(run("schema", "--json").stdout)
         json.loads(run("plan", "builtin:sphere", "--json").stdout)
 
+    def test_validation_prints_what_the_contract_names_and_knows_its_cases(self):
+        cases = json.loads(run("validate", "--json", "stretch").stdout)["cases"]
+        self.assertGreater(len(cases), 20)
+        for case in cases:
+            self.assertLessEqual({"case", "quantity", "reference", "measured", "error", "tolerance", "pass", "source"},
+                                 set(case))
+            self.assertTrue(case["pass"], case)
+        wrong = run("validate", "strech")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("stretch", wrong.stderr)
+
     def test_every_fabric_has_a_source(self):
         fabrics = json.loads(run("fabrics", "--json").stdout)
         self.assertIn("cotton", {fabric["name"] for fabric in fabrics})
