@@ -10,6 +10,7 @@
 #include "bench/machine.hpp"
 #include "bench/options.hpp"
 #include "bench/precision_front.hpp"
+#include "host/scene_phase.hpp"
 #include "io/atomic_file.hpp"
 #include "io/chart.hpp"
 
@@ -47,7 +48,7 @@ void measure_scene(const PrecisionScene& scene, bool quick, Measured& to)
         point.result.positions.clear();
         to.points.push_back(std::move(point));
     }
-    to.standards.push_back(runner.scene().solver.integrator);
+    to.standards.push_back(integrator_of(runner.scene()));
     to.scenes.push_back(scene);
     to.references.push_back(std::move(reference));
 }

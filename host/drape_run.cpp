@@ -35,7 +35,7 @@ void DrapeRun::start_phase(const std::string& name, const std::vector<Vec3>& pos
     phase_.reset();   // two phases at once would double the memory
     phase_ = std::make_unique<Phase>(model_.model, phase_options(scene_, model_, *plan),
                                      plan->queries_bodies ? &*query_ : nullptr, profile_, positions, velocities);
-    integrator_ = make_integrator(scene_.solver.integrator, *phase_);
+    integrator_ = make_integrator(integrator_of(scene_), *phase_);
 }
 
 void DrapeRun::begin()
@@ -79,7 +79,7 @@ void DrapeRun::note_stability(const StepEvent& event)
     stability_.taken = first ? event.shortest : std::min(stability_.taken, event.shortest);
     if (first && event.shortest < scene_.solver.step)
         recorder_->say(fmt::format("solver.step is {:.3g} s, the stability limit of {} here {:.3g} s: taking steps of {:.3g} s",
-                                   scene_.solver.step, scene_.solver.integrator, event.stable_step, event.shortest));
+                                   scene_.solver.step, integrator_of(scene_), event.stable_step, event.shortest));
 }
 
 bool DrapeRun::after_step(const StepEvent& event)
@@ -223,7 +223,7 @@ RunOutcome DrapeRun::execute()
         throw InputError(scene_.place("solver.step"), fmt::format("{:.6g} s", scene_.solver.step),
                          fmt::format("at most the stability limit of {}, {:.3g} s at {:.3g} s of simulated time, as "
                                      "solver.unstable_step is refuse",
-                                     scene_.solver.integrator, error.limit, progress_.draping.time));
+                                     integrator_of(scene_), error.limit, progress_.draping.time));
     } catch (const DivergenceError& error) {
         return conclude(RunStatus::diverged, std::string("diverged: ") + error.what());
     }

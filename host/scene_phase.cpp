@@ -14,4 +14,10 @@ PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const Ph
     return options;
 }
 
+std::string integrator_of(const Scene& scene)
+{
+    if (scene.solver.integrator != "automatic") return scene.solver.integrator;
+    return scene.solver.until == "equilibrium" ? "implicit_euler" : "bdf2";
+}
+
 }  // namespace selvage

@@ -6,4 +6,8 @@ namespace selvage {
 /// How a scene asks for one of its phases to be solved.
 PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const PhasePlan& plan);
 
+/// The integrator that moves the cloth while it drapes: solver.integrator, or what `bench work-precision` finds best:
+/// bdf2 for motions, implicit_euler on the way to rest.
+std::string integrator_of(const Scene& scene);
+
 }  // namespace selvage

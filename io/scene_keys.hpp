@@ -82,8 +82,8 @@
     WORD(source, "", "", "where the values come from")
 
 #define SOLVER_KEYS(KEY, WORD, VEC3)                                                                             \
-    WORD(integrator, "implicit_euler",                                                                           \
-         "implicit_euler|bdf2|implicit_midpoint|symplectic_euler|central_difference|velocity_verlet|rk4|static", \
+    WORD(integrator, "automatic",                                                                                \
+         "automatic|implicit_euler|bdf2|implicit_midpoint|symplectic_euler|central_difference|velocity_verlet|rk4|static", \
          "how time is advanced while cloth drapes; static: straight to the shape at rest; the explicit ones "   \
          "(from symplectic_euler to rk4) need short steps and gain energy in contact with bodies")               \
     WORD(until, "equilibrium", "", "\"equilibrium\", or the simulated seconds to run")                           \
