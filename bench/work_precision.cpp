@@ -154,13 +154,15 @@ void bench_work_precision(bool json, const std::vector<std::string>& arguments, 
     const std::string folder = options.count("--output") ? options["--output"] : "bench-out";
     const bool quick = options.count("--quick") && read_number("--quick", options["--quick"], 0, 1, "0 or 1") == 1;
     Measured measured;
-    for (const PrecisionScene& scene : precision_scenes(options["--scene"])) measure_scene(scene, quick, measured);
     std::filesystem::create_directories(folder);
-    const std::string report = json_report(measured).dump(2) + "\n", lines = table(measured);
-    write_file_atomically(folder + "/work_precision.json", report);
-    write_file_atomically(folder + "/work_precision.csv", csv_text(measured.points));
-    write_png(folder + "/work_precision.png", diagram(measured));
-    out << (json ? report : lines);
+    for (const PrecisionScene& scene : precision_scenes(options["--scene"])) {
+        measure_scene(scene, quick, measured);
+        // Whoever stops a long run keeps the scenes that are done.
+        write_file_atomically(folder + "/work_precision.json", json_report(measured).dump(2) + "\n");
+        write_file_atomically(folder + "/work_precision.csv", csv_text(measured.points));
+        write_png(folder + "/work_precision.png", diagram(measured));
+    }
+    out << (json ? json_report(measured).dump(2) + "\n" : table(measured));
     if (!json) out << folder << "/work_precision.png\n";
 }
 
