@@ -109,6 +109,8 @@ bool StepControl::keeps_energy(double span, double kinetic_before, double potent
     const double mass = sum_items(s.size.vertex_count, [&s](int v) { return s.inv_mass[v] == 0 ? 0.0 : s.mass[v]; });
     const double falling = 0.5 * mass * std::pow(9.81 * span, 2);
     const double moved = highest_kinetic_ + first_energy_ - lowest_potential_ + falling;
+    // What has just gone deep into a contact shows there only, and not in the planes that the step began with.
+    if (phase_.contact()) phase_.contact()->update(phase_.state());
     const ActiveTerms& terms = phase_.newton().terms();
     return terms.kinetic_energy() + terms.potential_energy() - first_energy_ <= most_gain * moved;
 }
