@@ -97,7 +97,7 @@ void add_linear_solver(KernelCloth& cloth, std::vector<KernelCase>& cases)
 /// One iteration of an implicit step, with the query and the gradient that then tell whether it was enough.
 struct NewtonIteration {
     explicit NewtonIteration(KernelCloth& cloth)
-        : newton(cloth.state, cloth.params, *cloth.multigrid, cloth.contact.get(), profile)
+        : newton(cloth.state, cloth.params, *cloth.multigrid, cloth.contact.get(), nullptr, profile)
     {
     }
     NewtonReport run()

@@ -109,7 +109,8 @@
 #define CONTACT_KEYS(KEY, WORD, VEC3)                                                                            \
     KEY(double, gap, 0.002, "m", 1e-5, 0.05, "distance from the body at which contact pressure sets in")         \
     KEY(double, stiffness, automatic, "Pa", 1e-3, 1e9, "pressure scale of the contact barrier; automatic: 100 times the cloth's weight per area") \
-    KEY(bool, body, true, "1", 0, 1, "contact between cloth and bodies")
+    KEY(bool, body, true, "1", 0, 1, "contact between cloth and bodies")                                         \
+    KEY(bool, self, true, "1", 0, 1, "contact of the cloth with itself; without it cloth passes through cloth")
 
 #define MEMBRANE_KEYS(KEY, WORD, VEC3)                                                                           \
     WORD(model, "orthotropic", "orthotropic|springs|none", "in-plane model of the cloth; springs follow stretch and shear at small strain, coupling becomes the shear stiffness") \

@@ -4,11 +4,13 @@
 
 // Kinds of items: each has a count and a padded stride.
 #define ITEM_KINDS(KIND)                                                                        \
-    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(spring) KIND(material) KIND(coupling) \
-    KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot) KIND(spring_slot)
+    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(spring) KIND(pair) KIND(body_point) KIND(material) KIND(coupling) \
+    KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot) KIND(spring_slot) KIND(pair_slot)
 
 // Kinds whose items join several vertices, with the number of corners: their forces are gathered at vertices.
+// Elements belong to the cloth: their stiffness has a fixed place in the matrix. Pairs come and go with contact.
 #define ELEMENT_KINDS(KIND) KIND(face, 3) KIND(hinge, 4) KIND(stitch, 2) KIND(spring, 2)
+#define GATHERED_KINDS(KIND) ELEMENT_KINDS(KIND) KIND(pair, 4)
 
 #define SIZE_MEMBERS(kind) int kind##_count, kind##_stride;
 typedef struct { ITEM_KINDS(SIZE_MEMBERS) } mesh_sizes;

@@ -37,6 +37,7 @@ void ActiveTerms::evaluate_stiffness(bool projected, double dissipative_scale)
                       [k = state_.vertex_stiffness.data(), scale = block_real(dissipative_scale)](int i) { k[i] *= scale; });
     }
     for (const Term* term : conservative_) add(term);
+    add_pair_diagonals(state_);
 }
 
 void ActiveTerms::evaluate_drag()

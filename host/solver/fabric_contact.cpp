@@ -7,19 +7,25 @@
 
 namespace selvage {
 
-FabricContact::FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology,
-                             const Cloth& cloth, const FabricTable& fabrics, double gap, double margin)
-    : query_(query), fabric_friction_(std::size_t(topology.particle_count), 0.0),
-      body_of_vertex_(std::size_t(topology.particle_count), -1), gap_(gap), margin_(margin)
+std::vector<double> particle_friction(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics)
 {
-    for (const Body& body : bodies) body_friction_.push_back(body.friction);
+    std::vector<double> result(std::size_t(topology.particle_count), 0.0);
     for (const ClothPanel& panel : cloth.panels) {
         const double friction = fabrics.at(panel.fabric).friction;
         for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v) {
-            double& of_particle = fabric_friction_[topology.particle_of[v]];
+            double& of_particle = result[topology.particle_of[v]];
             of_particle = std::max(of_particle, friction);
         }
     }
+    return result;
+}
+
+FabricContact::FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology,
+                             const Cloth& cloth, const FabricTable& fabrics, double gap, double margin)
+    : query_(query), fabric_friction_(particle_friction(topology, cloth, fabrics)),
+      body_of_vertex_(std::size_t(topology.particle_count), -1), gap_(gap), margin_(margin)
+{
+    for (const Body& body : bodies) body_friction_.push_back(body.friction);
 }
 
 void FabricContact::update(State& state)

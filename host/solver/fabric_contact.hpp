@@ -7,6 +7,9 @@
 
 namespace selvage {
 
+/// Returns the friction coefficient of every particle: the largest of its panels' fabrics [1].
+std::vector<double> particle_friction(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics);
+
 /// Contact of the particles with the scene's bodies: the queries of BodyQuery written into the state's fields.
 class FabricContact final : public ContactField {
 public:

@@ -5,6 +5,7 @@
 
 #include "host/solver/block_matrix.hpp"
 #include "host/solver/multigrid.hpp"
+#include "host/solver/pair_list.hpp"
 #include "kernels/stages/couple_hinges.h"
 
 namespace selvage {
@@ -106,11 +107,16 @@ public:
     }
 
 private:
-    // y = A x: the assembled matrix, and what of the plate's stiffness does not stand in it.
+    // y = A x: the assembled matrix, and what of the stiffness of plates and contacts does not stand in it.
     void multiply(const LinearVector& x, LinearVector& y)
     {
         matrix_.multiply(x, y);
-        if (turn_.empty()) return;
+        if (!turn_.empty()) couple_hinges(x, y);
+        if (state_->size.pair_count > 0) couple_pairs(x, y);
+    }
+
+    void couple_hinges(const LinearVector& x, LinearVector& y)
+    {
         const State& s = *state_;
         const couple_args args{s.hinge_vertex.data(), s.hinge_slope.data(), s.hinge_rigidity.data(),
                                s.coupling_slots.data(), s.coupling_hinge.data(), s.coupling_rigidity.data(),
@@ -119,6 +125,15 @@ private:
         launch<couple_turn>(s.size.hinge_count, args);
         launch<couple_moment>(s.size.hinge_count, args);
         launch<couple_gather>(s.size.vertex_count, args);
+    }
+
+    void couple_pairs(const LinearVector& x, LinearVector& y)
+    {
+        const State& s = *state_;
+        relative_.resize(6 * std::size_t(s.size.pair_count));
+        const couple_pairs_args args{pair_list_of(s), x.data(), relative_.data(), y.data(), s.inv_mass.data()};
+        launch<couple_pairs_relative>(s.size.pair_count, args);
+        launch<couple_pairs_gather>(s.size.vertex_count, args);
     }
 
     void precondition()
@@ -174,6 +189,7 @@ private:
     const State* state_ = nullptr;   // of the last assembly
     LinearVector x_, r_, z_, p_, q_;
     LinearVector turn_, moment_;     // per hinge; empty without a plate
+    LinearVector relative_;          // per pair in contact
 };
 
 }  // namespace

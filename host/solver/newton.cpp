@@ -21,8 +21,10 @@ double dot3(const State& state, const std::vector<real>& a, const std::vector<re
 
 }  // namespace
 
-Newton::Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, Profile& profile)
-    : state_(state), params_(params), linear_(linear), contact_(contact), profile_(profile), terms_(state, params, profile)
+Newton::Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, ClothContact* cloth,
+               Profile& profile)
+    : state_(state), params_(params), linear_(linear), contact_(contact), cloth_(cloth), profile_(profile),
+      terms_(state, params, profile)
 {
     for (std::vector<real>* v : {&start_, &origin_, &target_, &base_, &downhill_, &direction_}) v->assign(state.pos.size(), 0);
     const double gravity = std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y,
@@ -83,12 +85,32 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
     report.linear_iterations += result.iterations;
     if (dot3(state_, downhill_, direction_) < 0)   // only an indefinite matrix can give this
         for_each_item(int(direction_.size()), [d = direction_.data()](int i) { d[i] = -d[i]; });
-    if (contact_) {
-        const std::vector<real> free_direction = direction_;
-        keep_outside_bodies();
-        if (dot3(state_, downhill_, direction_) <= 0) direction_ = free_direction;
+    if (!contact_ && !cloth_) return -dot3(state_, downhill_, direction_);
+    free_direction_ = direction_;
+    if (contact_) keep_outside_bodies();
+    if (dot3(state_, downhill_, direction_) <= 0) direction_ = free_direction_;
+    if (cloth_) {
+        scale_to_longest(options);
+        clear_way(false);
+        if (dot3(state_, downhill_, direction_) <= 0) {
+            direction_ = free_direction_;
+            scale_to_longest(options);
+            clear_way(true);
+        }
     }
     return -dot3(state_, downhill_, direction_);
+}
+
+void Newton::clear_way(bool uniform)
+{
+    profile_.timed("cloth_contact_way", state_.size.vertex_count, 0,
+                   [&] { cloth_->clear_way(state_, direction_, uniform); });
+}
+
+void Newton::scale_to_longest(const NewtonOptions& options)
+{
+    const double fraction = longest_fraction(options);
+    if (fraction < 1) for_each_item(int(direction_.size()), [d = direction_.data(), fraction](int i) { d[i] *= fraction; });
 }
 
 // Moves to base + fraction * direction.
@@ -116,6 +138,10 @@ void Newton::guess_step(const NewtonOptions& options)
     base_ = start_;
     for_each_item(int(start_.size()), [this](int i) { direction_[i] = target_[i] - start_[i]; });
     if (contact_) keep_outside_bodies();
+    if (cloth_) {
+        scale_to_longest(options);
+        clear_way(false);
+    }
     const double at_rest = objective();
     place(longest_fraction(options));
     if (!(objective() < at_rest)) place(0);
@@ -173,6 +199,7 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
     NewtonReport report;
     for (;; ++report.iterations) {
         if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
+        if (cloth_) profile_.timed("cloth_contact_pairs", state_.size.vertex_count, 0, [&] { cloth_->update(state_); });
         if (settle_each) settle_anchors(state_, params_);
         evaluate_gradient();
         report.residual = gradient_norm() / force_scale_;

@@ -3,6 +3,7 @@
 
 #include "host/solver/active_terms.hpp"
 #include "host/solver/body_contact.hpp"
+#include "host/solver/cloth_contact.hpp"
 #include "host/solver/linear_solver.hpp"
 #include "host/solver/params.hpp"
 
@@ -33,8 +34,10 @@ struct NewtonReport {
 /// Source: Martin and others 2011, eq. 7; Gast and others 2015 for the line search.
 class Newton {
 public:
-    /// @param contact may be null: no bodies. All references must outlive this object.
-    Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, Profile& profile);
+    /// @param contact  may be null: no bodies
+    /// @param cloth    may be null: the cloth passes through itself. All references must outlive this object.
+    Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, ClothContact* cloth,
+           Profile& profile);
 
     /// Moves state.pos to the minimum and state.vel to (x - origin) / span; anchors stay as they are.
     /// @param span    h of the objective [s], > 0
@@ -67,6 +70,8 @@ private:
     double longest_fraction(const NewtonOptions& options) const;
     void place(double fraction);
     void keep_outside_bodies();
+    void clear_way(bool uniform);
+    void scale_to_longest(const NewtonOptions& options);
     void guess_step(const NewtonOptions& options);
     NewtonReport iterate(const NewtonOptions& options, bool settle_each);
 
@@ -74,12 +79,13 @@ private:
     const Params& params_;
     LinearSolver& linear_;
     ContactField* contact_;
+    ClothContact* cloth_;
     Profile& profile_;
     ActiveTerms terms_;
     double force_scale_ = 0;
     double inertia_ = 0;   ///< 1/h^2; 0 for the static energy [1/s^2].
     double span_ = 0;      ///< h [s]
-    std::vector<real> start_, origin_, target_, base_, downhill_, direction_;
+    std::vector<real> start_, origin_, target_, base_, downhill_, direction_, free_direction_;
 };
 
 }  // namespace selvage

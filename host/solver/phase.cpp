@@ -40,7 +40,10 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
     if (query && !state_.contact_normal.empty())
         contact_ = std::make_unique<FabricContact>(*query, model.bodies, topology_, model.cloth, model.fabrics,
                                                    options.params.body_contact.gap, options.contact_margin);
-    newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), profile);
+    if (options.params.cloth_contact.stiffness > 0)
+        cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, options.params.cloth_contact.gap,
+                                                        particle_friction(topology_, model.cloth, model.fabrics));
+    newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), cloth_contact_.get(), profile);
 }
 
 }  // namespace selvage

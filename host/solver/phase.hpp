@@ -44,6 +44,8 @@ public:
     LinearSolver& linear() { return *linear_; }
     ContactField* contact() { return contact_.get(); }
     const ContactField* contact() const { return contact_.get(); }
+    ClothContact* cloth_contact() { return cloth_contact_.get(); }
+    const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
     std::vector<Vec3> positions() const { return cloth_vectors(topology_, state_.size, state_.pos); }
     std::vector<Vec3> velocities() const { return cloth_vectors(topology_, state_.size, state_.vel); }
     std::size_t bytes() const { return state_.bytes() + linear_->bytes(); }
@@ -54,6 +56,7 @@ private:
     State state_;
     std::unique_ptr<LinearSolver> linear_;
     std::unique_ptr<FabricContact> contact_;
+    std::unique_ptr<ClothContact> cloth_contact_;
     std::unique_ptr<Newton> newton_;
 };
 

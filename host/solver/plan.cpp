@@ -34,6 +34,15 @@ double contact_stiffness(const Scene& scene, const SceneModel& model)
     return 100 * heaviest * (gravity > 0 ? gravity : 9.81);
 }
 
+// Where cloth begins to press on cloth: at its thickness, or at contact.gap if that is more, but well below the length
+// of an edge, since neighbours in a panel must not press on each other.
+double cloth_gap(const Scene& scene, const SceneModel& model)
+{
+    double thickest = scene.contact.gap;
+    for (const auto& [name, fabric] : model.model.fabrics) thickest = std::max(thickest, fabric.thickness);
+    return std::min(thickest, 0.4 * model.edge_length);
+}
+
 bool any_friction(const SceneModel& model)
 {
     const auto rubs = [&](const Body& body) {
@@ -77,6 +86,10 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
         // A stitch stands for one edge length of seam, so that sewing does not depend on the resolution.
         params.seam.stiffness = scene.seams.stiffness * model.edge_length;
         params.seam.force_limit = scene.seams.force_limit * model.edge_length;
+    }
+    if (scene.contact.self) {
+        params.cloth_contact.stiffness = contact_stiffness(scene, model);
+        params.cloth_contact.gap = cloth_gap(scene, model);
     }
     if (model.model.bodies.empty() || !scene.contact.body) return params;
     params.body_contact.stiffness = contact_stiffness(scene, model);
@@ -141,6 +154,8 @@ std::string absence(const Scene& scene, const SceneModel& model, std::string_vie
     if (term == "bending_hysteresis") return "bending.model is none, or no fabric has bending hysteresis";
     if (term == "seam") return "there are no seams";
     if (term == "damping") return "no fabric has damping";
+    if (term == "cloth_contact") return "contact.self is false";
+    if (term == "cloth_friction") return scene.contact.self ? "no fabric has friction" : "contact.self is false";
     if (!bodies) return "there are no bodies";
     if (!scene.contact.body) return "contact.body is false";
     return "no body and no fabric has friction";
@@ -170,7 +185,6 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
         plan.skipped.push_back({"embree", queries ? "all bodies have closed forms" : "no body is queried"});
     if (!model.sews) plan.skipped.push_back({"sew", "there are no seams"});
     if (scene.wind.velocity.isZero()) plan.skipped.push_back({"wind", "wind.velocity is zero"});
-    plan.skipped.push_back({"cloth_contact", "contact of the cloth with itself is not part of this version"});
 
     std::size_t body_bytes = 0;
     for (const Body& body : model.model.bodies) body_bytes += body.mesh.faces.size() * 400;

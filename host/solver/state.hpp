@@ -37,8 +37,12 @@ struct State {
 #define FIELD(type, name, per, components, unit, meaning) std::vector<type> name;
 #include "kernels/fields.def"
 
+    FieldSet wanted;                                         ///< The fields that are in use.
+
     State() = default;
     State(const mesh_sizes& sizes, const FieldSet& wanted);  ///< Zero-fills the wanted fields.
+    /// Makes room for so many pairs in contact; the contents of their fields are lost. Memory only ever grows.
+    void set_pairs(int count);
     std::size_t bytes() const;                               ///< Memory held by all fields.
 };
 

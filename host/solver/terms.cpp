@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "host/solver/launch.hpp"
+#include "host/solver/pair_list.hpp"
 #include "kernels/stages/gather.h"
 
 namespace selvage {
@@ -118,7 +119,7 @@ std::span<const Term> all_terms()
 
 std::string_view kind_name(ItemKind kind)
 {
-    constexpr std::string_view names[] = {"vertex", "face", "hinge", "stitch", "spring"};
+    constexpr std::string_view names[] = {"vertex", "face", "hinge", "stitch", "spring", "pair"};
     return names[int(kind)];
 }
 
@@ -127,7 +128,7 @@ FieldSet required_fields(const Params& params)
     FieldSet fields = set_of({Field::pos, Field::vel, Field::mass, Field::inv_mass, Field::force});
     for (const Term& term : all_terms())
         if (term.is_active(params)) fields |= term.fields;
-    ELEMENT_KINDS(GATHER_FIELDS)
+    GATHERED_KINDS(GATHER_FIELDS)
     return fields;
 }
 
@@ -138,7 +139,7 @@ void clear_forces(State& state)
     };
     clear(state.force);
 #define CLEAR(kind, corners) clear(state.kind##_force);
-    ELEMENT_KINDS(CLEAR)
+    GATHERED_KINDS(CLEAR)
 #undef CLEAR
 }
 
@@ -149,8 +150,15 @@ void clear_stiffness(State& state)
     };
     clear(state.vertex_stiffness);
 #define CLEAR(kind, corners) clear(state.kind##_stiffness);
-    ELEMENT_KINDS(CLEAR)
+    GATHERED_KINDS(CLEAR)
 #undef CLEAR
+}
+
+void add_pair_diagonals(State& state)
+{
+    if (state.size.pair_count == 0) return;
+    launch<pair_diagonal>(state.size.vertex_count,
+                          pair_diagonal_args{pair_list_of(state), state.vertex_stiffness.data()});
 }
 
 void gather_forces(State& state)
@@ -161,7 +169,7 @@ void gather_forces(State& state)
                              gather_args{state.kind##_slots.data(), state.kind##_slot.data(),                  \
                                          state.kind##_force.data(), state.force.data(),                        \
                                          state.size.vertex_stride, state.size.kind##_stride});
-    ELEMENT_KINDS(GATHER)
+    GATHERED_KINDS(GATHER)
 #undef GATHER
 }
 

@@ -8,7 +8,7 @@
 namespace selvage {
 
 enum class Nature { conservative, dissipative };
-enum class ItemKind { vertex, face, hinge, stitch, spring };
+enum class ItemKind { vertex, face, hinge, stitch, spring, pair };
 
 /// What the planner, the solver, the tests and the documentation know about one force term.
 struct Term {
@@ -39,6 +39,9 @@ void clear_forces(State& state);
 
 /// Sets the accumulated stiffness of every allocated slot to zero.
 void clear_stiffness(State& state);
+
+/// Adds the diagonal blocks of the pairs in contact to the vertices' stiffness: kernels/stages/couple_pairs.h.
+void add_pair_diagonals(State& state);
 
 /// Sums the element forces at the vertices, in the fixed order of the gather lists: reproducible without atomics.
 void gather_forces(State& state);

@@ -51,7 +51,7 @@ Specimen::Specimen(const Cloth& cloth, const Fabric& fabric, const Params& param
     : params_(params), state_(make_state(make_topology(cloth, true), cloth, {{specimen_fabric, fabric}}, params,
                                          cloth.positions, {})),
       linear_(make_solver(state_, solve)),
-      newton_(std::make_unique<Newton>(state_, params_, *linear_, nullptr, profile_))
+      newton_(std::make_unique<Newton>(state_, params_, *linear_, nullptr, nullptr, profile_))
 {
 }
 

@@ -22,6 +22,25 @@ void add_elements(int corners, int count, int stride, const Vertices& vertex, co
                 }
 }
 
+// The blocks weight_a weight_b K of pairs in contact.
+void add_pairs(const State& state, Triplets& entries)
+{
+    const int ps = state.size.pair_stride;
+    for (int p = 0; p < state.size.pair_count; ++p)
+        for (int ab = 0; ab < 16; ++ab) {
+            const int a = ab / 4, b = ab % 4, va = state.pair_vertex[a * ps + p], vb = state.pair_vertex[b * ps + p];
+            if (va < 0 || vb < 0) continue;
+            for (int c = 0; c < 9; ++c) {
+                const double contact = state.pair_weight[a * ps + p] * state.pair_weight[b * ps + p] * state.pair_stiffness[9 * p + c];
+                const double friction = state.pair_held_weight.empty()
+                                            ? 0
+                                            : state.pair_held_weight[a * ps + p] * state.pair_held_weight[b * ps + p] *
+                                                  state.pair_stiffness[9 * (ps + p) + c];
+                entries.emplace_back(3 * va + c / 3, 3 * vb + c % 3, contact + friction);
+            }
+        }
+}
+
 SparseMatrix couplings(const State& state)
 {
     const int hinges = state.size.hinge_count, hs = state.size.hinge_stride, n = 3 * state.size.vertex_count;
@@ -53,6 +72,7 @@ SparseMatrix slot_stiffness(const State& state, bool coupled)
     add_elements(corners, state.size.kind##_count, state.size.kind##_stride, state.kind##_vertex, state.kind##_stiffness, entries);
     ELEMENT_KINDS(ADD)
 #undef ADD
+    add_pairs(state, entries);
     SparseMatrix matrix(3 * n, 3 * n);
     matrix.setFromTriplets(entries.begin(), entries.end());
     if (coupled) matrix += couplings(state);

@@ -1,0 +1,292 @@
+#include "host/collision/cloth_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include "kernels/portable.h"
+
+namespace selvage {
+namespace {
+
+constexpr double flat_to_skip = 0.4, flat_to_stay = 0.25;   // least s - e of a subtree that is skipped
+constexpr int grain = 512;
+constexpr std::size_t frontier = 256;                      // pieces that a search is divided into
+
+using Range = tbb::blocked_range<int>;
+
+template <class Work>
+void parallel(int count, const Work& work)
+{
+    tbb::parallel_for(Range(0, count, grain), [&](const Range& range) {
+        for (int i = range.begin(); i < range.end(); ++i) work(i);
+    });
+}
+
+}  // namespace
+
+void ClothTree::Box::clear()
+{
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
+}
+
+void ClothTree::Box::add(const Box& other)
+{
+    for (int c = 0; c < 3; ++c) {
+        low[c] = std::min(low[c], other.low[c]);
+        high[c] = std::max(high[c], other.high[c]);
+    }
+}
+
+void ClothTree::Gradients::clear()
+{
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
+}
+
+void ClothTree::Gradients::add(const Gradients& other)
+{
+    for (int c = 0; c < 6; ++c) {
+        low[c] = std::min(low[c], other.low[c]);
+        high[c] = std::max(high[c], other.high[c]);
+    }
+}
+
+double ClothTree::Gradients::stretch_bound() const
+{
+    double middle[6], squared_spread = 0;
+    for (int c = 0; c < 6; ++c) {
+        middle[c] = 0.5 * (double(low[c]) + double(high[c]));
+        squared_spread += std::pow(0.5 * (double(high[c]) - double(low[c])), 2);
+    }
+    const double uu = middle[0] * middle[0] + middle[1] * middle[1] + middle[2] * middle[2];
+    const double vv = middle[3] * middle[3] + middle[4] * middle[4] + middle[5] * middle[5];
+    const double uv = middle[0] * middle[3] + middle[1] * middle[4] + middle[2] * middle[5];
+    const double smaller = 0.5 * (uu + vv) - std::hypot(0.5 * (uu - vv), uv);
+    return std::sqrt(std::max(smaller, 0.0)) - std::sqrt(squared_spread);
+}
+
+// Bounds of all ways in the moving frame, grown by the slack and half of the reach.
+void ClothTree::refit_boxes()
+{
+    const float grown = float(slack_ + 0.5 * reach_);
+    parallel(int(start_.size()), [&](int k) {
+        for (int c = 0; c < 3; ++c) {
+            corner_box_[k].low[c] = float(std::min(start_[k][c], end_[k][c])) - grown;
+            corner_box_[k].high[c] = float(std::max(start_[k][c], end_[k][c])) + grown;
+        }
+    });
+    parallel(int(surface_.faces.size()), [&](int f) {
+        face_box_[f].clear();
+        for (int corner : surface_.faces[f]) face_box_[f].add(corner_box_[slot(corner)]);
+    });
+    parallel(int(nodes_.size()), [&](int n) {
+        node_box_[n].clear();
+        if (nodes_[n].right > 0) return;
+        for (int k = 0; k < nodes_[n].count; ++k) node_box_[n].add(face_box_[order_[nodes_[n].first + k]]);
+    });
+    for (int n = int(nodes_.size()) - 1; n >= 0; --n)
+        if (nodes_[n].right > 0) {
+            node_box_[n].add(node_box_[n + 1]);
+            node_box_[n].add(node_box_[nodes_[n].right]);
+        }
+}
+
+void ClothTree::refit_gradients()
+{
+    parallel(int(surface_.faces.size()), [&](int f) {
+        const Face& face = surface_.faces[f];
+        if (face[0] < 0) return;
+        const std::array<double, 4>& w = rest_inverse_[f];
+        face_gradients_[f].clear();
+        for (const std::vector<Vec3>* x : {&start_, &end_}) {
+            const Vec3 e1 = (*x)[face[1]] - (*x)[face[0]], e2 = (*x)[face[2]] - (*x)[face[0]];
+            const Vec3 weft = w[0] * e1 + w[1] * e2, warp = w[2] * e1 + w[3] * e2;
+            Gradients one;
+            for (int c = 0; c < 3; ++c) {
+                one.low[c] = one.high[c] = float(weft[c]);
+                one.low[3 + c] = one.high[3 + c] = float(warp[c]);
+            }
+            face_gradients_[f].add(one);
+        }
+    });
+    parallel(int(nodes_.size()), [&](int n) {
+        node_gradients_[n].clear();
+        for (int k = 0; k < nodes_[n].near_count; ++k)
+            node_gradients_[n].add(face_gradients_[near_[nodes_[n].first_near + k]]);
+    });
+    for (int n = int(nodes_.size()) - 1; n >= 0; --n)
+        if (nodes_[n].right > 0 && nodes_[n].may_be_flat) {
+            node_gradients_[n].add(node_gradients_[n + 1]);
+            node_gradients_[n].add(node_gradients_[nodes_[n].right]);
+        }
+}
+
+// Without bodies the frame goes with the mean of the cloth: cloth that moves as a whole meets nothing new.
+void ClothTree::set_frame(const double* from, const double* move, int stride, const std::vector<Vec3>& bodies,
+                          const std::vector<Vec3>& body_moves)
+{
+    Vec3 at = Vec3::Zero(), way = Vec3::Zero();
+    if (bodies.empty()) {
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0, moves = 0;
+            for (int v = 0; v < particles_; ++v) {
+                sum += from[c * stride + v];
+                if (move) moves += move[c * stride + v];
+            }
+            at[c] = sum / particles_;
+            way[c] = moves / particles_;
+        }
+    }
+    parallel(particles_, [&](int v) {
+        for (int c = 0; c < 3; ++c) {
+            start_[v][c] = from[c * stride + v] - at[c];
+            end_[v][c] = start_[v][c] + (move ? move[c * stride + v] - way[c] : 0);
+        }
+    });
+    parallel(int(bodies.size()), [&](int k) {
+        start_[particles_ + k] = bodies[k];
+        end_[particles_ + k] = body_moves.empty() ? bodies[k] : Vec3(bodies[k] + body_moves[k]);
+    });
+}
+
+bool ClothTree::still_complete(double reach)
+{
+    if (!valid_ || reach > reach_) return false;
+    const float inner = float(0.5 * reach_);
+    const bool inside = tbb::parallel_reduce(
+        Range(0, int(start_.size()), 4096), true,
+        [&](const Range& range, bool all) {
+            for (int k = range.begin(); k < range.end() && all; ++k)
+                for (int c = 0; c < 3; ++c) {
+                    const float low = float(std::min(start_[k][c], end_[k][c])), high = float(std::max(start_[k][c], end_[k][c]));
+                    all = all && low >= corner_box_[k].low[c] + inner && high <= corner_box_[k].high[c] - inner;
+                }
+            return all;
+        },
+        [](bool a, bool b) { return a && b; });
+    if (!inside) return false;
+    refit_gradients();
+    return std::all_of(skipped_.begin(), skipped_.end(), [&](int n) { return is_flat(n, flat_to_stay); });
+}
+
+bool ClothTree::cover(const double* from, const double* move, int stride, const std::vector<Vec3>& bodies,
+                      const std::vector<Vec3>& body_moves, double reach)
+{
+    set_frame(from, move, stride, bodies, body_moves);
+    if (still_complete(reach)) {
+        ++counts_.reused;
+        return false;
+    }
+    reach_ = reach;
+    refit_boxes();
+    refit_gradients();
+    search();
+    valid_ = true;
+    return true;
+}
+
+void ClothTree::search()
+{
+    ++counts_.searches;
+    candidates_.clear();
+    skipped_.clear();
+    if (nodes_.empty()) return;
+    // The first pieces are found one after the other; then each is searched on its own and the answers are joined in
+    // their order, so that they do not depend on the threads.
+    std::vector<NodePair> pieces{{0, 0}}, stack;
+    for (std::size_t next = 0; next < pieces.size() && pieces.size() - next < frontier; ++next) {
+        stack.clear();
+        visit(pieces[next], stack, skipped_, candidates_);
+        pieces[next] = {-1, -1};
+        pieces.insert(pieces.end(), stack.begin(), stack.end());
+    }
+    std::erase_if(pieces, [](const NodePair& piece) { return piece[0] < 0; });
+    std::vector<std::vector<PairCandidate>> found(pieces.size());
+    std::vector<std::vector<int>> skipped(pieces.size());
+    tbb::parallel_for(std::size_t(0), pieces.size(), [&](std::size_t p) {
+        std::vector<NodePair> open{pieces[p]};
+        while (!open.empty()) {
+            const NodePair pair = open.back();
+            open.pop_back();
+            visit(pair, open, skipped[p], found[p]);
+        }
+    });
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        candidates_.insert(candidates_.end(), found[p].begin(), found[p].end());
+        skipped_.insert(skipped_.end(), skipped[p].begin(), skipped[p].end());
+    }
+    counts_.flat_skipped += static_cast<long long>(skipped_.size());
+}
+
+void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
+                      std::vector<PairCandidate>& found) const
+{
+    const auto [a, b] = pair;
+    const Node &na = nodes_[a], &nb = nodes_[b];
+    if (a == b) {
+        if (is_body(a)) return;
+        if (is_flat(a, flat_to_skip)) {
+            skipped.push_back(a);
+        } else if (na.right > 0) {
+            stack.insert(stack.end(), {{a + 1, a + 1}, {na.right, na.right}, {a + 1, na.right}});
+        } else {
+            for (int i = 0; i < na.count; ++i)
+                for (int j = i + 1; j < na.count; ++j) meet(order_[na.first + i], order_[na.first + j], found);
+        }
+        return;
+    }
+    if (!node_box_[a].overlaps(node_box_[b]) || (is_body(a) && is_body(b))) return;
+    if (na.right == 0 && nb.right == 0) {
+        for (int i = 0; i < na.count; ++i)
+            for (int j = 0; j < nb.count; ++j) meet(order_[na.first + i], order_[nb.first + j], found);
+    } else if (nb.right == 0 || (na.right > 0 && na.count >= nb.count)) {
+        stack.insert(stack.end(), {{a + 1, b}, {na.right, b}});
+    } else {
+        stack.insert(stack.end(), {{a, b + 1}, {a, nb.right}});
+    }
+}
+
+// Keeps a pair unless its two sides share a vertex, or will once it is sewn.
+void ClothTree::offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const
+{
+    const int first = candidate.edges ? 2 : 1;
+    for (int i = 0; i < first; ++i)
+        for (int j = first; j < 4; ++j) {
+            const int a = candidate.corner[i], b = candidate.corner[j];
+            if (a >= 0 && b >= 0 && surface_.group_of[a] == surface_.group_of[b]) return;
+        }
+    Box one = corner_box_[slot(candidate.corner[0])], other = corner_box_[slot(candidate.corner[first])];
+    for (int i = 1; i < first; ++i) one.add(corner_box_[slot(candidate.corner[i])]);
+    for (int j = first + 1; j < 4; ++j) other.add(corner_box_[slot(candidate.corner[j])]);
+    if (one.overlaps(other)) found.push_back(candidate);
+}
+
+void ClothTree::meet(int face_a, int face_b, std::vector<PairCandidate>& found) const
+{
+    if (!face_box_[face_a].overlaps(face_box_[face_b])) return;
+    const Face &a = surface_.faces[face_a], &b = surface_.faces[face_b];
+    for (int k = 0; k < 3; ++k) {
+        if (owned_[face_a] >> k & 1) offer({{a[k], b[0], b[1], b[2]}, false}, found);
+        if (owned_[face_b] >> k & 1) offer({{b[k], a[0], a[1], a[2]}, false}, found);
+        if (!(owned_[face_a] >> (3 + k) & 1)) continue;
+        for (int l = 0; l < 3; ++l)
+            if (owned_[face_b] >> (3 + l) & 1) offer({{a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]}, true}, found);
+    }
+}
+
+std::size_t ClothTree::bytes() const
+{
+    return nodes_.size() * (sizeof(Node) + sizeof(Box) + sizeof(Gradients)) +
+           surface_.faces.size() * (sizeof(Face) + 3 * sizeof(Vec2) + sizeof(Box) + sizeof(Gradients) + 40) +
+           near_.size() * sizeof(int) + start_.size() * (2 * sizeof(Vec3) + sizeof(Box)) +
+           candidates_.capacity() * sizeof(PairCandidate);
+}
+
+}  // namespace selvage

@@ -1,0 +1,142 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+/// Two primitives that may come near each other: a vertex and a face, or two edges. Corners below zero are corners of
+/// bodies, -1 - k for corner k; the others are particles.
+struct PairCandidate {
+    std::array<int, 4> corner{};    ///< A vertex and a face's three, or the ends of two edges.
+    bool edges = false;
+};
+
+/// What a tree is built over. Faces of bodies have corners below zero; see PairCandidate.
+struct TreeSurface {
+    struct Patch {                              ///< A panel of the cloth, or a body.
+        int first_face = 0, face_count = 0;
+        bool flat = false;                      ///< Panels: rest coordinates are given.
+        bool convex = false;                    ///< The panel's outline is convex.
+    };
+    std::vector<Face> faces;
+    std::vector<std::array<Vec2, 3>> rest;      ///< Panel coordinates of the corners of each face [m]; unused for bodies.
+    std::vector<Patch> patches;
+    std::vector<int> group_of;                  ///< Per particle: particles that are or will be sewn are one group.
+    std::vector<Vec3> body_corners;             ///< Where the bodies' corners are at first [m].
+};
+
+struct TreeCounts {
+    long long searches = 0;         ///< Traversals of the tree.
+    long long reused = 0;           ///< Times that the last candidates were proved to be still complete.
+    long long flat_skipped = 0;     ///< Subtrees that were skipped in traversals since they cannot meet themselves.
+};
+
+/// A bounding volume hierarchy over the faces of the cloth, and of the bodies that it may touch, whose boxes hold the
+/// ways of all corners during a move. It finds all pairs of primitives that can come within a distance during the move.
+///
+/// Flat parts are skipped (E7). Between two points of a convex piece of a panel at rest distance r, with F the
+/// deformation gradient (3x2) of its faces, the distance in space is at least (s - e) r, where s is the smaller
+/// singular value of some F0 and e bounds |F - F0| over the piece: the path between them is straight at rest and
+///     |x(a) - x(b)| = |integral F dr| >= |F0 (a - b)| - e |a - b|.
+/// So a subtree whose s - e is above a threshold cannot meet itself, which also covers its outline, and since F is
+/// linear in the positions, checking both ends of a move covers the move. This is a rigorous form of the test on
+/// cones of normals.
+///
+/// Candidates stay complete while every corner stays within the box that was searched for it, in a frame that
+/// moves along with the cloth, and while every skipped subtree still passes the test.
+class ClothTree {
+public:
+    /// @param slack  what the boxes are grown by so that candidates serve for further moves [m]
+    ClothTree(TreeSurface surface, double slack);
+
+    /// Makes candidates complete for the straight moves from `from` to `from + move` of all particles.
+    /// @param reach       distance of primitives that is of interest [m]
+    /// @param from, move  planes, component c of particle v at [c * stride + v] [m]; move may be null: no move
+    /// @param bodies, body_moves  three entries per body corner [m]
+    /// @returns true if the candidates have changed
+    bool cover(const double* from, const double* move, int stride, const std::vector<Vec3>& bodies,
+               const std::vector<Vec3>& body_moves, double reach);
+
+    const std::vector<PairCandidate>& candidates() const { return candidates_; }
+    const TreeCounts& counts() const { return counts_; }
+    void forget() { valid_ = false; }      ///< The next call of cover searches.
+    std::size_t bytes() const;
+
+private:
+    struct Box {
+        std::array<float, 3> low, high;
+        void clear();
+        void add(const Box& other);
+        bool overlaps(const Box& other) const
+        {
+            return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
+                   other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
+        }
+    };
+    struct Gradients {                          // range of the deformation gradients
+        std::array<float, 6> low, high;
+        void clear();
+        void add(const Gradients& other);
+        double stretch_bound() const;           // s - e
+    };
+    struct Node {
+        int right = 0;                          // second child, the first comes next; 0: a leaf
+        int first = 0, count = 0;               // its faces, in tree order
+        int patch = -1;                         // -1: several
+        bool may_be_flat = false;               // its piece of the panel is convex
+        int first_near = 0, near_count = 0;     // leaves: faces that overlap its cell, grown by the largest face
+    };
+    using NodePair = std::array<int, 2>;
+    struct Cell {                               // rectangle of a panel that a node stands for, and what overlaps it
+        Vec2 low, high;
+        std::vector<int> faces, outline;        // outline: index into outline_
+    };
+    struct PatchBuild;
+
+    void build_patches(int first_patch, int patch_count);
+    void build(PatchBuild& build, int first, int count, const Cell& cell);
+    Cell part_of(const PatchBuild& build, const Cell& cell, const Vec2& low, const Vec2& high) const;
+    void own_primitives();
+    void set_frame(const double* from, const double* move, int stride, const std::vector<Vec3>& bodies,
+                   const std::vector<Vec3>& body_moves);
+    bool still_complete(double reach);
+    void refit_gradients();
+    void refit_boxes();
+    void search();
+    void visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
+               std::vector<PairCandidate>& found) const;
+    void meet(int face_a, int face_b, std::vector<PairCandidate>& found) const;
+    void offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const;
+    int slot(int corner) const { return corner >= 0 ? corner : particles_ - 1 - corner; }
+    bool is_body(int node) const { return nodes_[node].patch >= 0 && !surface_.patches[nodes_[node].patch].flat; }
+    bool is_flat(int node, double threshold) const
+    {
+        return nodes_[node].may_be_flat && node_gradients_[node].stretch_bound() > threshold;
+    }
+
+    TreeSurface surface_;
+    double slack_;
+    int particles_ = 0;
+    std::vector<int> order_;                    // tree order to face
+    std::vector<Node> nodes_;                   // children behind their parents
+    std::vector<int> near_;                     // faces, see Node
+    std::vector<std::uint8_t> owned_;           // per face: bits 0-2 its corners, 3-5 its edges that it stands for
+    std::vector<std::array<double, 4>> rest_inverse_;
+
+    std::vector<Vec3> start_, end_;             // of each corner in the moving frame, particles first
+    std::vector<Box> corner_box_, face_box_, node_box_;
+    std::vector<Gradients> face_gradients_, node_gradients_;
+    std::vector<int> skipped_;                  // nodes that were taken for flat
+    double reach_ = 0;
+    Vec3 frame_ = Vec3::Zero(), frame_move_ = Vec3::Zero(), built_frame_ = Vec3::Zero();
+    bool valid_ = false;
+    std::vector<PairCandidate> candidates_;
+    TreeCounts counts_;
+};
+
+}  // namespace selvage
