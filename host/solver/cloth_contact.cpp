@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <tbb/parallel_sort.h>
@@ -15,6 +16,9 @@ constexpr double keep = 0.1;             // part of a pair's distance that a mov
 constexpr double slack_of_edge = 0.15;   // slack of the tree's boxes, of an edge length
 constexpr int rounds = 4;                // of holding vertices back before the whole move is scaled
 constexpr double parallel_sine = 0.1;    // edges that cross at a smaller sine count less
+
+float rounded_up(double x) { return std::nextafter(float(x), std::numeric_limits<float>::infinity()); }
+float rounded_down(double x) { return std::nextafter(float(x), 0.0f); }
 
 double typical_edge(const Cloth& cloth)
 {
@@ -99,33 +103,66 @@ PairCorners ClothContact::corners_at(const PairCandidate& candidate, const doubl
     return x;
 }
 
-void ClothContact::look_at_all(const State& state, const std::vector<real>* move)
+// How far each particle has gone since the last look and is to go now, but for what all have in common.
+void ClothContact::measure_ways(const State& state, const std::vector<real>* move)
+{
+    const int n = state.size.vertex_count, vs = state.size.vertex_stride;
+    const bool first = seen_.empty();
+    seen_.resize(std::size_t(n));
+    gone_.resize(std::size_t(n));
+    way_.resize(std::size_t(n));
+    const auto mean_of = [n](const auto& component) {
+        Vec3 mean;
+        for (int c = 0; c < 3; ++c) mean[c] = sum_items(n, [&](int v) { return component(v, c); }) / n;
+        return mean;
+    };
+    const Vec3 gone = first ? Vec3::Zero() : mean_of([&](int v, int c) { return state.pos[c * vs + v] - seen_[v][c]; });
+    const Vec3 ahead = move ? mean_of([&](int v, int c) { return (*move)[c * vs + v]; }) : Vec3::Zero();
+    for_each_item(n, [&, this](int v) {
+        const Vec3 x(state.pos[v], state.pos[vs + v], state.pos[2 * vs + v]);
+        gone_[v] = first ? 0 : rounded_up((x - seen_[v] - gone).norm());
+        way_[v] = move ? rounded_up((Vec3((*move)[v], (*move)[vs + v], (*move)[2 * vs + v]) - ahead).norm()) : 0;
+        seen_[v] = x;
+    });
+}
+
+// Measures those candidates that may be in contact on the way; of the others a bound is enough to know that they are not.
+void ClothContact::look_at_all(const State& state, const std::vector<real>* move, bool afresh)
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
     looks_.resize(candidates.size());
+    measure_ways(state, move);
     const int vs = state.size.vertex_stride;
     for_each_item(int(candidates.size()), [&, this](int k) {
         const PairCandidate& candidate = candidates[k];
-        looks_[k].distance = pair_distance(corners_at(candidate, state.pos.data(), vs), candidate.edges);
-        looks_[k].approach = move ? pair_approach(corners_at(candidate, move->data(), vs), candidate.edges) : 0;
+        const auto& c = candidate.corner;
+        const auto both_sides = [&](const std::vector<float>& way) {
+            return candidate.edges ? std::max(way[c[0]], way[c[1]]) + std::max(way[c[2]], way[c[3]])
+                                   : way[c[0]] + std::max({way[c[1]], way[c[2]], way[c[3]]});
+        };
+        Look& look = looks_[k];
+        look.approach = both_sides(way_);
+        look.distance -= both_sides(gone_);
+        look.near = afresh || look.distance - look.approach < gap_;
+        if (!look.near) return;
+        look.distance = rounded_down(pair_distance(corners_at(candidate, state.pos.data(), vs), candidate.edges));
+        if (move) look.approach = rounded_up(pair_approach(corners_at(candidate, move->data(), vs), candidate.edges));
+        look.near = look.distance - look.approach < gap_;
     });
-    ++counts_.listed;
+    ++counts_.looks;
 }
 
 void ClothContact::update(State& state)
 {
-    tree_.cover(state.pos.data(), nullptr, state.size.vertex_stride, {}, {}, gap_);
-    look_at_all(state, nullptr);
+    const bool afresh = tree_.cover(state.pos.data(), nullptr, state.size.vertex_stride, {}, {}, gap_);
+    look_at_all(state, nullptr, afresh);
     list_pairs(state);
-    counts_.pairs = int(listed_.size());
-    counts_.nearest = 1e30;
-    for (int k : listed_) counts_.nearest = std::min(counts_.nearest, looks_[k].distance);
 }
 
 void ClothContact::clear_way(State& state, std::vector<real>& move, bool uniform)
 {
-    tree_.cover(state.pos.data(), move.data(), state.size.vertex_stride, {}, {}, gap_);
-    look_at_all(state, &move);
+    const bool afresh = tree_.cover(state.pos.data(), move.data(), state.size.vertex_stride, {}, {}, gap_);
+    look_at_all(state, &move, afresh);
     held_.assign(std::size_t(state.size.vertex_count), 0);
     int round = 0;
     while (hold_back(state, move, round, uniform || round >= rounds))
@@ -143,13 +180,16 @@ bool ClothContact::hold_back(const State& state, std::vector<real>& move, int ro
     for_each_item(int(candidates.size()), [&, this](int k) {
         const PairCandidate& candidate = candidates[k];
         Look& look = looks_[k];
+        if (!look.near && round == 0) return;
         // What moved along with a vertex that is held back now comes nearer to it.
         const bool changed = round > 0 && std::any_of(candidate.corner.begin(), candidate.corner.end(),
                                                       [this](int v) { return held_[v] != 0; });
         if (!changed && (round > 0 || look.approach < (1 - keep) * look.distance)) return;
         const PairCorners way = corners_at(candidate, move.data(), vs);
         const double approach = pair_approach(way, candidate.edges);
-        look.approach = std::max(look.approach, approach);
+        if (!look.near) look.distance = rounded_down(pair_distance(corners_at(candidate, state.pos.data(), vs), candidate.edges));
+        look.approach = std::max(look.approach, rounded_up(approach));
+        look.near = look.distance - look.approach < gap_;
         if (approach < (1 - keep) * look.distance) return;
         const double free = free_fraction(corners_at(candidate, state.pos.data(), vs), way, candidate.edges,
                                           look.distance, approach, keep);
@@ -191,7 +231,7 @@ void ClothContact::list_pairs(State& state)
     const std::vector<PairCandidate>& candidates = tree_.candidates();
     listed_.clear();
     for (int k = 0; k < int(candidates.size()); ++k)
-        if (looks_[k].distance - looks_[k].approach < gap_) listed_.push_back(k);
+        if (looks_[k].near) listed_.push_back(k);
     tbb::parallel_sort(listed_.begin(), listed_.end(), [&](int a, int b) {
         const PairCandidate &p = candidates[a], &q = candidates[b];
         return p.edges != q.edges ? p.edges < q.edges : p.corner < q.corner;

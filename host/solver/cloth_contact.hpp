@@ -11,10 +11,8 @@ namespace selvage {
 
 /// What a run reports of contact between cloth and cloth.
 struct ClothContactCounts {
-    int pairs = 0;                  ///< Within the contact distance at the last look.
-    long long listed = 0;           ///< Looks at all candidates.
+    long long looks = 0;            ///< Times that pairs were looked for.
     long long shortened = 0;        ///< Moves that were cut since something would have been passed through.
-    double nearest = 1e30;          ///< Smallest distance at the last look [m].
 };
 
 /// Contact of the cloth with itself: keeps the pairs in the state's fields up to date and every move free of
@@ -48,11 +46,14 @@ public:
 
 private:
     struct Look {                    // at one candidate
-        double distance = 0, approach = 0;
+        float distance = 0;          // a lower bound; exact where the candidate may matter [m]
+        float approach = 0;          // an upper bound, likewise [m]
+        bool near = false;           // it may matter on this way
     };
 
     PairCorners corners_at(const PairCandidate& candidate, const double* plane, int stride) const;
-    void look_at_all(const State& state, const std::vector<real>* move);
+    void look_at_all(const State& state, const std::vector<real>* move, bool afresh);
+    void measure_ways(const State& state, const std::vector<real>* move);
     bool hold_back(const State& state, std::vector<real>& move, int round, bool uniform);
     void list_pairs(State& state);
     void recall(State& state);
@@ -62,6 +63,8 @@ private:
     std::vector<double> friction_, area_;          // per particle
     ClothTree tree_;
     std::vector<Look> looks_;                      // per candidate
+    std::vector<Vec3> seen_;                       // per particle: where it was at the last look [m]
+    std::vector<float> gone_, way_;                // per particle: how far it has gone since, and is to go [m]
     std::vector<char> held_;                       // per particle: held back in the last move
     std::vector<int> listed_;                      // candidates that are pairs now, in the pairs' order
     std::vector<real> memory_;

@@ -101,6 +101,12 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
     return -dot3(state_, downhill_, direction_);
 }
 
+// Whoever has cleared a way has listed what is in contact on it: only who comes from elsewhere must look.
+void Newton::list_pairs()
+{
+    if (cloth_) profile_.timed("cloth_contact_pairs", state_.size.vertex_count, 0, [&] { cloth_->update(state_); });
+}
+
 void Newton::clear_way(bool uniform)
 {
     profile_.timed("cloth_contact_way", state_.size.vertex_count, 0,
@@ -197,9 +203,9 @@ bool Newton::search_line(double slope, const NewtonOptions& options)
 NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
 {
     NewtonReport report;
+    double gained = 0;
     for (;; ++report.iterations) {
         if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
-        if (cloth_) profile_.timed("cloth_contact_pairs", state_.size.vertex_count, 0, [&] { cloth_->update(state_); });
         if (settle_each) settle_anchors(state_, params_);
         evaluate_gradient();
         report.residual = gradient_norm() / force_scale_;
@@ -207,7 +213,9 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
         if (report.converged || report.iterations == options.max_iterations) return report;
         const double slope = search_direction(options, report);
         // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the force.
-        report.converged = largest_move() <= options.still * span_;
+        report.converged = largest_move() <= options.still * span_ ||
+                           -slope <= options.decrement * (gained + terms_.kinetic_energy());
+        gained -= 0.5 * slope;
         report.stuck = !std::isfinite(slope) || !search_line(slope, options);
         if (report.stuck || report.converged) return report;
     }
@@ -242,12 +250,14 @@ NewtonReport Newton::relax(const NewtonOptions& options)
     inertia_ = 0;
     start_ = origin_ = state_.pos;
     std::fill(state_.vel.begin(), state_.vel.end(), 0);
+    list_pairs();
     return iterate(options, true);
 }
 
 double Newton::static_residual()
 {
     inertia_ = 0;
+    list_pairs();
     evaluate_gradient();
     return gradient_norm() / force_scale_;
 }

@@ -13,6 +13,8 @@ struct NewtonOptions {
     int max_iterations = 12;
     double tolerance = 1e-2;           ///< Norm of the objective's gradient over the force scale [1].
     double still = 0;                  ///< A step is also done when an iteration moves no vertex faster than this [m/s].
+    double decrement = 0;              ///< A step is also done when an iteration promises less than this part of the energy
+                                       ///< that moves: kinetic energy and what the iterations before it have gained [1].
     double linear_tolerance = 0.05;    ///< Relative residual of the linear solves [1].
     double max_move = 0.02;            ///< Largest way of a vertex near a body in one iteration [m].
     double max_far_move = 0.1;         ///< Largest way of a vertex that is not near one, if there are bodies [m].
@@ -70,6 +72,7 @@ private:
     double longest_fraction(const NewtonOptions& options) const;
     void place(double fraction);
     void keep_outside_bodies();
+    void list_pairs();
     void clear_way(bool uniform);
     void scale_to_longest(const NewtonOptions& options);
     void guess_step(const NewtonOptions& options);
