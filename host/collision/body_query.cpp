@@ -46,9 +46,9 @@ struct Mover {
     std::shared_ptr<const BodyMotion> motion;
     Box box;                             // of the body as it starts
     bool plane;                          // infinite: turning moves it without bound
-    Placement now = Placement::Identity(), before = Placement::Identity();
+    Placement now, before;
     std::vector<Vec3> vertices_before;   // of a body that deforms
-    bool moved = false;                  // in the last move
+    bool moved;                          // in the last move
 };
 
 analytic_body placed(analytic_body shape, const Placement& place)
@@ -227,7 +227,8 @@ void BodyQuery::Impl::add_mover(int index, const Body& body)
     Box box;
     for (const Vec3& x : body.mesh.vertices) box.extend(x);
     // The tessellation of a closed form lies within it.
-    movers.push_back({index, body.motion, grown(box, 0.01 * box.diagonal().norm()), body.kind == Body::Kind::plane});
+    movers.push_back({index, body.motion, grown(box, 0.01 * box.diagonal().norm()), body.kind == Body::Kind::plane,
+                      Placement::Identity(), Placement::Identity(), {}, false});
 }
 
 void BodyQuery::Impl::move(Mover& mover, double to)

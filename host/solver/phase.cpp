@@ -44,6 +44,12 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
         contact_ = std::make_unique<FabricContact>(*query, model.bodies, topology_, model.cloth, model.fabrics,
                                                    options.params.body_contact.gap, options.contact_margin);
     newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), profile);
+    if (!contact_) return;
+    // Cloth that lies on a body from the start is held by friction in its first step already.
+    contact_->update(state_);
+    settle_friction(state_, options_.params);
+    newton_->terms().evaluate_forces(false);
+    hold_by_friction(state_, options_.params);
 }
 
 double Phase::motion_end() const { return std::max(pins_.end(), contact_ ? contact_->motion_end() : 0.0); }

@@ -106,7 +106,7 @@ void check_incline(CaseReport& report, const char* scheme)
     }
 }
 
-constexpr double radius = 0.1, width = 0.01, arc_step = 3 * degree, lead = 0.06, pull_speed = 0.02;   // [m], [rad], [m/s]
+constexpr double radius = 0.1, width = 0.01, arc_step = 3 * degree, lead = 0.25, pull_speed = 0.02;   // [m], [rad], [m/s]
 
 // A strip wrapped around the cylinder about y by an angle, tangent at both ends; its rest length is shorter by the strain.
 Cloth wrapped_strip(double wrap, double strain, double gap)
@@ -150,7 +150,7 @@ double capstan_ratio(double wrap, double friction)
     cylinder.center = Vec3(0, -1, 0);
     cylinder.end = Vec3(0, 1, 0);
     cylinder.radius = radius;
-    const double strain = 2e-3;
+    constexpr double strain = 5e-3;
     Contact contact(wrapped_strip(wrap, strain, 1e-3), cylinder, friction);
     BodyQuery query(contact.model.bodies, Box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
     Profile profile;
@@ -164,7 +164,7 @@ double capstan_ratio(double wrap, double friction)
     newton.linear_tolerance = 1e-3;
     const int columns = phase.state().size.vertex_count / 2;
     const int steps_per_edge = int(std::lround(radius * arc_step / (pull_speed * dt)));
-    constexpr int edges_before = 3;
+    constexpr int edges_before = 5;
     double slack_side = 0, tight_side = 0;
     for (int step = 0; step < (edges_before + 1) * steps_per_edge; ++step) {
         for (double left = dt; left > 1e-9;) left -= control.advance(left, newton, true);
