@@ -28,6 +28,7 @@ void SceneRunner::move(Phase& phase, const RunSetting& setting, RunResult& resul
     const auto integrator = make_integrator(setting.integrator, phase);
     StepOptions steps;
     steps.longest = setting.step;
+    steps.start = 0;
     steps.unstable = setting.refuse_unstable ? UnstableStep::refuse : UnstableStep::shrink;
     const auto count = [&](const StepEvent& event) {
         ++result.steps;

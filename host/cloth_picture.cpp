@@ -26,10 +26,9 @@ std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology)
     return faces;
 }
 
-void draw_cloth(const std::string& path, const ClothModel& model, const std::vector<Vec3>& positions,
-                const Topology& topology, PictureOptions options)
+void draw_cloth(const std::string& path, const Cloth& cloth, const std::vector<TriangleMesh>& bodies,
+                const std::vector<Vec3>& positions, const Topology& topology, PictureOptions options)
 {
-    const Cloth& cloth = model.cloth;
     const std::vector<int> representative = representatives(topology);
     PictureCloth picture;
     picture.positions = positions;
@@ -40,8 +39,6 @@ void draw_cloth(const std::string& path, const ClothModel& model, const std::vec
         for (int k = seam.first_pair; k + 1 < seam.first_pair + seam.pair_count; ++k)
             picture.seam_edges.push_back(
                 {representative[cloth.seam_pairs[k][0]], representative[cloth.seam_pairs[k + 1][0]]});
-    std::vector<TriangleMesh> bodies;
-    for (const Body& body : model.bodies) bodies.push_back(body.mesh);
     if (!cloth.seams.empty()) options.views = PictureViews::front_and_back;
     write_png(path, render_picture(picture, bodies, options));
 }

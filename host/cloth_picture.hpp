@@ -12,7 +12,7 @@ namespace selvage {
 std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology);
 
 /// Draws the cloth and its bodies into a PNG file, seams visible.
-void draw_cloth(const std::string& path, const ClothModel& model, const std::vector<Vec3>& positions,
-                const Topology& topology, PictureOptions options);
+void draw_cloth(const std::string& path, const Cloth& cloth, const std::vector<TriangleMesh>& bodies,
+                const std::vector<Vec3>& positions, const Topology& topology, PictureOptions options);
 
 }  // namespace selvage

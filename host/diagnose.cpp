@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "host/collision/self_intersections.hpp"
 #include "host/render/picture.hpp"
 #include "host/solver/plan.hpp"
 
@@ -17,7 +18,8 @@ constexpr double smallest_good_angle = 10;   // [degrees]; below it a triangle's
 
 struct Finding {
     std::string kind, text;
-    std::vector<int> faces;   ///< Involved, for the picture.
+    std::vector<int> faces;   ///< Of the cloth that are involved, for the picture.
+    std::vector<IntersectingPair> pairs = {};   ///< That intersect; of a body the second index is that of its face.
 };
 
 double smallest_angle(const Cloth& cloth, int face)
@@ -53,6 +55,37 @@ Finding find_penetrations(const ClothModel& model)
     if (count > 0)
         finding.text = fmt::format("{} of {} vertices start inside a body, the deepest by {:.1f} mm", count,
                                    cloth.positions.size(), 1000 * deepest);
+    return finding;
+}
+
+// The cloth's faces that occur in pairs, sorted.
+void note_faces(Finding& finding, bool both)
+{
+    for (const auto& [a, b] : finding.pairs) {
+        finding.faces.push_back(a);
+        if (both) finding.faces.push_back(b);
+    }
+    std::sort(finding.faces.begin(), finding.faces.end());
+    finding.faces.erase(std::unique(finding.faces.begin(), finding.faces.end()), finding.faces.end());
+}
+
+Finding find_crossed_cloth(const Cloth& cloth)
+{
+    Finding finding{"self_intersection", {}, {}, self_intersections(cloth.positions, cloth.faces)};
+    note_faces(finding, true);
+    if (!finding.pairs.empty())
+        finding.text = fmt::format("{} pairs of the cloth's triangles intersect, the first {} and {}", finding.pairs.size(),
+                                   finding.pairs.front()[0], finding.pairs.front()[1]);
+    return finding;
+}
+
+Finding find_crossed_body(const Cloth& cloth, const Body& body)
+{
+    Finding finding{"body_intersection", {}, {}, mutual_intersections(cloth.positions, cloth.faces, body.mesh)};
+    note_faces(finding, false);
+    if (!finding.pairs.empty())
+        finding.text = fmt::format("{} triangles of the cloth intersect the body `{}`, in {} pairs; the first is {}",
+                                   finding.faces.size(), body.name, finding.pairs.size(), finding.pairs.front()[0]);
     return finding;
 }
 
@@ -107,8 +140,10 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
 {
     const SceneModel model = build_scene_model(scene);
     check_memory(scene, make_plan(scene, model));
-    std::vector<Finding> findings{find_penetrations(model.model), find_bad_triangles(model.model.cloth),
+    std::vector<Finding> findings{find_penetrations(model.model), find_crossed_cloth(model.model.cloth),
+                                  find_bad_triangles(model.model.cloth),
                                   find_odd_size(model.model.cloth)};
+    for (const Body& body : model.model.bodies) findings.push_back(find_crossed_body(model.model.cloth, body));
     for (const std::string& warning : model.warnings) findings.push_back({"warning", warning, {}});
     std::erase_if(findings, [](const Finding& finding) { return finding.text.empty(); });
     if (!picture_path.empty()) draw(model.model, findings, picture_path);
@@ -120,6 +155,7 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
     for (const Finding& finding : findings) {
         diagnosis.text += finding.kind + ": " + finding.text + "\n";
         json["findings"].push_back({{"kind", finding.kind}, {"text", finding.text}, {"triangles", finding.faces}});
+        if (!finding.pairs.empty()) json["findings"].back()["pairs"] = finding.pairs;
     }
     if (findings.empty())
         diagnosis.text = fmt::format("{}: nothing found ({} vertices, {} triangles, typical edge {:.1f} mm)\n",

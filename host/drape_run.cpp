@@ -174,7 +174,7 @@ RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
     if (progress_.phase != "press") recorder_->write_frame(*phase_, event, elapsed(), true);
     save();
     recorder_->close_phase();
-    recorder_->conclude(status, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters, stability_,
+    recorder_->conclude(status, progress_.draping.time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters, stability_,
                         profile_, residual, elapsed(), message);
     const bool complete = status == RunStatus::converged || status == RunStatus::finished;
     if (complete && !scene_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 
+#include "host/body_model.hpp"
 #include "host/render/picture.hpp"
 #include "io/errors.hpp"
 #include "io/mesh_obj.hpp"
@@ -36,9 +37,34 @@ std::vector<int> face_panels(const TrajectoryLayout& layout)
     return panels;
 }
 
+// The bodies as they are in a frame: those of body.obj, which shows the last one, unless they move.
+std::vector<TriangleMesh> bodies_at(const TrajectoryReader& reader, const std::string& run_h5, double time)
+{
+    std::vector<TriangleMesh> meshes;
+    const std::filesystem::path run(run_h5);
+    const std::string file = (run.parent_path() / "body.obj").string(), &text = reader.layout().scene_text;
+    // The scene's own files need not be there any more: it is read only where something may move.
+    if (text.find("keyframe") == std::string::npos && text.find("sequence") == std::string::npos) {
+        if (std::filesystem::exists(file)) meshes.push_back(read_obj(file, "m", "z"));
+        return meshes;
+    }
+    const double bodies_time = run.filename() == "sewing.h5" ? 0 : time;   // they wait until the garment is sewn
+    for (const Body& body : build_bodies(read_scene_text(text, reader.layout().scene_file)))
+        meshes.push_back(body_mesh_at(body, bodies_time));
+    return meshes;
+}
+
+void write_bodies(const std::vector<TriangleMesh>& bodies, const std::string& path)
+{
+    std::vector<ObjObject> objects;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        objects.push_back({"body_" + std::to_string(b), bodies[b].vertices, bodies[b].faces});
+    write_obj(path, objects);
+}
+
 }  // namespace
 
-void render_run(const std::string& run_h5, const std::string& png, int frame, int width)
+void render_run(const std::string& run_h5, const std::string& png, int frame, int width, const std::string& body_obj)
 {
     const TrajectoryReader reader(run_h5);
     const int count = reader.frame_count(), at = frame < 0 ? count + frame : frame;
@@ -49,9 +75,8 @@ void render_run(const std::string& run_h5, const std::string& png, int frame, in
     picture.faces = reader.layout().triangles;
     picture.face_panel = face_panels(reader.layout());
     picture.seam_edges = panel_borders(picture.faces, picture.face_panel);
-    std::vector<TriangleMesh> bodies;
-    const std::string body = (std::filesystem::path(run_h5).parent_path() / "body.obj").string();
-    if (std::filesystem::exists(body)) bodies.push_back(read_obj(body, "m", "z"));
+    const std::vector<TriangleMesh> bodies = bodies_at(reader, run_h5, reader.scalars(at).time);
+    if (!body_obj.empty()) write_bodies(bodies, body_obj);
     PictureOptions options;
     options.width = width;
     write_png(png, render_picture(picture, bodies, options));

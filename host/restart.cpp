@@ -68,8 +68,19 @@ std::string model_fingerprint(const SceneModel& model)
     for (const auto& [name, f] : model.model.fabrics)
         for (const StressCurve& curve : membrane_curves(f))
             for (const CurveRange& range : curve) print.add(range);
-    for (const Body& body : model.model.bodies)
+    for (const Body& body : model.model.bodies) {
         for (const Vec3& x : body.mesh.vertices) print.add(x);
+        // Where it is at a few times tells motions apart.
+        for (int k = 1; body.motion && k <= 8; ++k)
+            for (const Vec3& x : body_mesh_at(body, body.motion->end() * k / 8).vertices) print.add(x);
+    }
+    for (const PinMotion& motion : cloth.pin_motions) {
+        print.add(motion.velocity);
+        print.add(motion.axis);
+        print.add(motion.point);
+        for (double value : {motion.start, motion.end, motion.turns}) print.add(value);
+        for (int vertex : motion.vertices) print.add(vertex);
+    }
     return print.text();
 }
 

@@ -7,6 +7,7 @@
 #include <tbb/global_control.h>
 
 #include "host/cloth_picture.hpp"
+#include "host/collision/self_intersections.hpp"
 #include "host/measure.hpp"
 #include "host/solver/elastic_energy.hpp"
 #include "io/errors.hpp"
@@ -44,6 +45,8 @@ TrajectoryLayout trajectory_layout(const Scene& scene, const Cloth& cloth, const
     layout.rest_edge_lengths = rest_edge_lengths(cloth);
     layout.seam_pairs = cloth.seam_pairs;
     layout.scene_text = scene.text;
+    const bool builtin = scene.file.starts_with("builtin:");
+    layout.scene_file = builtin ? scene.file : std::filesystem::absolute(scene.file).string();
     layout.version = version;
     layout.grid = position_grid(scene.output.precision);
     return layout;
@@ -136,7 +139,7 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
     next_frame_ = frame_time_after(scalars.time);
 }
 
-void RunRecorder::write_meshes(const std::vector<Vec3>& positions)
+void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const std::vector<TriangleMesh>& bodies)
 {
     const Cloth& cloth = model_.model.cloth;
     std::vector<std::vector<Face>> faces(cloth.panels.size());
@@ -153,28 +156,48 @@ void RunRecorder::write_meshes(const std::vector<Vec3>& positions)
         objects.push_back({panel.name, range(positions), faces[p], range(cloth.panel_coordinates)});
     }
     write_obj(folder_ + "/final.obj", objects);
-    if (model_.model.bodies.empty()) return;
+    if (bodies.empty()) return;
     objects.clear();
-    for (const Body& body : model_.model.bodies) objects.push_back({body.name, body.mesh.vertices, body.mesh.faces});
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        objects.push_back({model_.model.bodies[b].name, bodies[b].vertices, bodies[b].faces});
     write_obj(folder_ + "/body.obj", objects);
 }
 
-void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topology)
+void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topology,
+                       const std::vector<TriangleMesh>& bodies)
 {
     if (!scene_.output.picture) return;
     PictureOptions options;
     options.width = scene_.output.picture_width;
     options.samples_per_axis = scene_.output.picture_samples;
-    draw_cloth(folder_ + "/preview.png", model_.model, positions, topology, options);
+    draw_cloth(folder_ + "/preview.png", model_.model.cloth, bodies, positions, topology, options);
 }
 
-void RunRecorder::conclude(RunStatus status, Phase& phase, const RunPlan& plan, const BodyQuery* query,
+// Of the last frame as it is written, where the files allow it to be counted again.
+void RunRecorder::count_intersections(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
+                                      const std::vector<TriangleMesh>& bodies) const
+{
+    const double spacing = grid_spacing(position_grid(scene_.output.precision));
+    std::vector<Vec3> written;
+    for (const Vec3& x : positions) written.push_back(written_position(x, spacing).cast<double>());
+    if (!std::all_of(written.begin(), written.end(), [](const Vec3& x) { return x.allFinite(); })) return;
+    const std::vector<Face> faces = shared_faces(model_.model.cloth, topology);
+    summary.self_intersections = std::int64_t(self_intersections(written, faces).size());
+    if (bodies.empty()) return;
+    summary.body_intersections = 0;
+    for (const TriangleMesh& body : bodies)
+        summary.body_intersections += std::int64_t(mutual_intersections(written, faces, body).size());
+}
+
+void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
                            const RunCounters& counters, const StabilityUse& stability, const Profile& profile,
                            double residual, double wall_seconds, const std::string& message)
 {
     const std::vector<Vec3> positions = phase.positions();
-    write_meshes(positions);
-    draw(positions, phase.topology());
+    std::vector<TriangleMesh> bodies;
+    for (const Body& body : model_.model.bodies) bodies.push_back(body_mesh_at(body, time));
+    write_meshes(positions, bodies);
+    draw(positions, phase.topology(), bodies);
     const Cloth& cloth = model_.model.cloth;
     RunSummary s;
     s.status = status;
@@ -209,6 +232,7 @@ void RunRecorder::conclude(RunStatus status, Phase& phase, const RunPlan& plan, 
         s.body_max_penetration = gap.max_penetration_m;
         s.body_min_gap = gap.min_gap_m;
     }
+    count_intersections(s, positions, phase.topology(), bodies);
     s.seam_count = int(cloth.seams.size());
     if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
     for (const PanelMeasure& p : measure_panels(cloth, positions))

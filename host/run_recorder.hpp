@@ -48,14 +48,17 @@ public:
     int frame_count() const { return trajectory_ ? trajectory_->frame_count() : 0; }
 
     /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
-    void conclude(RunStatus status, Phase& phase, const RunPlan& plan, const BodyQuery* query,
+    /// @param time  at which the bodies are shown [s]
+    void conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
                   const RunCounters& counters, const StabilityUse& stability, const Profile& profile,
                   double residual, double wall_seconds, const std::string& message);
 
 private:
     double frame_time_after(double time) const;
-    void write_meshes(const std::vector<Vec3>& positions);
-    void draw(const std::vector<Vec3>& positions, const Topology& topology);
+    void write_meshes(const std::vector<Vec3>& positions, const std::vector<TriangleMesh>& bodies);
+    void count_intersections(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
+                             const std::vector<TriangleMesh>& bodies) const;
+    void draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);
 
     const Scene& scene_;
     const SceneModel& model_;

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "host/body_model.hpp"
 #include "host/garment/assemble.hpp"
 #include "host/garment/catalogue.hpp"
-#include "host/garment/mannequin.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/garment/transfer.hpp"
 #include "io/memory.hpp"
@@ -28,23 +28,6 @@ constexpr double bytes_per_vertex = 3000;
 constexpr double ripple = 1e-4;
 constexpr int ripple_waves = 7;
 
-MannequinMeasures body_measures(const BodyScene& body)
-{
-    MannequinMeasures measures = mannequin_size(body.size);
-    const auto take = [](double& to, double given) {
-        if (!std::isnan(given)) to = given;
-    };
-    take(measures.stature, body.stature);
-    take(measures.bust, body.bust);
-    take(measures.waist, body.waist);
-    take(measures.hips, body.hips);
-    take(measures.shoulder_width, body.shoulder_width);
-    take(measures.neck, body.neck);
-    take(measures.arm_length, body.arm_length);
-    take(measures.arm_angle, body.arm_angle);
-    return measures;
-}
-
 Pattern read_pattern(const Scene& scene)
 {
     constexpr std::string_view prefix = "builtin:";
@@ -60,10 +43,16 @@ Cloth sheet_at(const Scene& scene, int index, int resolution)
     SheetScene sheet = scene.sheets[index];
     sheet.resolution = resolution;
     const std::string key = "sheet[" + std::to_string(index) + "]";
-    if (sheet.shape != "mesh") return make_sheet(sheet, scene.pins, scene.file, key);
-    std::vector<Vec2> texture;
-    const TriangleMesh mesh = read_obj(scene.resolve(sheet.mesh), sheet.unit, sheet.up_axis, &texture);
-    return sheet_from_mesh(mesh, texture, sheet, scene.pins, sheet.mesh, key);
+    Cloth cloth;
+    if (sheet.shape == "mesh") {
+        std::vector<Vec2> texture;
+        const TriangleMesh mesh = read_obj(scene.resolve(sheet.mesh), sheet.unit, sheet.up_axis, &texture);
+        cloth = sheet_from_mesh(mesh, texture, sheet, scene.pins, sheet.mesh, key);
+    } else {
+        cloth = make_sheet(sheet, scene.pins, scene.file, key);
+    }
+    add_pin_motions(cloth, scene.pin_motions, scene.file);
+    return cloth;
 }
 
 void check_sheet_size(const Scene& scene, int index)
@@ -104,14 +93,28 @@ void add_ripple(Cloth& cloth)
     }
 }
 
+// The copy of a garment with a number; the first is the garment itself.
+Cloth garment_copy(Cloth garment, const GarmentScene& scene, int copy)
+{
+    if (copy == 0) return garment;
+    garment.warnings.clear();
+    for (Vec3& x : garment.positions) x += copy * scene.copy_offset;
+    for (ClothPanel& panel : garment.panels) panel.name += fmt::format("_{}", copy + 1);
+    return garment;
+}
+
 // The cloth of the scene `level` halvings of its resolution away; empty if it cannot be made coarser.
 Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
 {
     Cloth cloth;
     const double factor = std::pow(2.0, level);
-    if (scene.has_garment())
-        cloth = assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric, scene.panel_fabrics,
-                                 scene.garment.pattern, memory_limit(scene) / bytes_per_vertex);
+    if (scene.has_garment()) {
+        const int copies = scene.garment.copies;
+        const Cloth garment =
+            assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric, scene.panel_fabrics,
+                             scene.garment.pattern, memory_limit(scene) / bytes_per_vertex / copies);
+        for (int copy = 0; copy < copies; ++copy) append_cloth(cloth, garment_copy(garment, scene.garment, copy));
+    }
     for (int i = 0; i < int(scene.sheets.size()); ++i) {
         const SheetScene& sheet = scene.sheets[i];
         if (level > 0 && sheet.shape == "mesh") return {};
@@ -145,24 +148,6 @@ double typical_edge(const Cloth& cloth)
 }
 
 }  // namespace
-
-std::vector<Body> build_bodies(const Scene& scene)
-{
-    std::vector<Body> bodies;
-    for (int i = 0; i < int(scene.bodies.size()); ++i) {
-        const BodyScene& body = scene.bodies[i];
-        if (body.shape == "mannequin") {
-            bodies.push_back(make_body(body, scene, i, make_mannequin(body_measures(body), scene.place("body[" + std::to_string(i) + "]"))));
-        } else if (body.shape == "mesh") {
-            const std::string file = scene.resolve(body.mesh);
-            bodies.push_back(make_body(body, scene, i, read_obj(file, body.unit, body.up_axis)));
-            require_closed_body(bodies.back().mesh, file);
-        } else {
-            bodies.push_back(make_body(body, scene, i));
-        }
-    }
-    return bodies;
-}
 
 SceneModel build_scene_model(const Scene& scene)
 {

@@ -19,9 +19,6 @@ struct SceneModel {
 /// @throws InputError for any fault of a pattern, mesh, measure or resolution
 SceneModel build_scene_model(const Scene& scene);
 
-/// Returns the bodies of a scene without its cloth.
-std::vector<Body> build_bodies(const Scene& scene);
-
 /// Returns the memory that a run of the scene may take: solver.memory_limit, or most of the machine's [bytes].
 double memory_limit(const Scene& scene);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 
 #include "io/atomic_file.hpp"
@@ -246,6 +247,27 @@ void append_numbers(std::string& text, const char* keyword, const double* values
 }
 
 }  // namespace
+
+std::vector<std::string> sequence_files(const std::string& pattern, const InputPlace& place)
+{
+    namespace fs = std::filesystem;
+    const fs::path whole(pattern);
+    const std::string name = whole.filename().string();
+    const std::size_t star = name.find('*');
+    if (star == std::string::npos || name.find('*', star + 1) != std::string::npos)
+        throw InputError(place, "`" + pattern + "`", "a file name with one *, such as pose_*.obj");
+    const std::string head = name.substr(0, star), tail = name.substr(star + 1);
+    std::vector<std::string> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(whole.has_parent_path() ? whole.parent_path() : fs::path("."), error)) {
+        const std::string found = entry.path().filename().string();
+        if (found.size() + 1 >= name.size() && found.starts_with(head) && found.ends_with(tail))
+            files.push_back(entry.path().string());
+    }
+    if (files.empty()) throw InputError(place, "`" + pattern + "`, no such files", "OBJ files of a body's poses");
+    std::sort(files.begin(), files.end());
+    return files;
+}
 
 TriangleMesh read_obj(const std::string& path, const std::string& unit, const std::string& up_axis,
                       std::vector<Vec2>* texture)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/body_mesh.hpp"
+#include "io/errors.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
@@ -18,6 +19,11 @@ namespace selvage {
 ///         with `texture`, a vertex without texture coordinates or with several.
 TriangleMesh read_obj(const std::string& path, const std::string& unit, const std::string& up_axis,
                       std::vector<Vec2>* texture = nullptr);
+
+/// Returns the files that a name with one * in its last part stands for, sorted by name.
+/// @param place  for messages
+/// @throws InputError if there is no *, or no such file
+std::vector<std::string> sequence_files(const std::string& pattern, const InputPlace& place);
 
 /// Returns the line of an OBJ file that holds a face of the mesh read from it; 0 if it cannot be found.
 int obj_face_line(const std::string& path, int face);

@@ -1,5 +1,6 @@
 #include "io/scene.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -42,6 +43,8 @@ TomlDocument read_document(const std::string& source)
 SCENE_TABLES(SCENE_TABLE)
 SCENE_TABLE(sheet, SheetScene, SHEET_KEYS, "")
 SCENE_TABLE(body, BodyScene, BODY_KEYS, "")
+SCENE_TABLE(keyframe, KeyframeScene, KEYFRAME_KEYS, "")
+SCENE_TABLE(motion, PinMotionScene, PIN_MOTION_KEYS, "")
 #undef SCENE_TABLE
 #undef READ_KEY
 #undef READ_WORD
@@ -55,6 +58,27 @@ void read_inner_tables(TomlDocument& document, TableReader& reader, GarmentScene
     TableReader inner(document, fabrics, "garment.fabrics");
     for (const auto& [panel, node] : *fabrics)
         inner.read(std::string(panel.str()).c_str(), scene.panel_fabrics[std::string(panel.str())], "");
+}
+
+// Tables [[outer.name]] of a table that may itself be repeated.
+template <class Table>
+void read_repeated(TomlDocument& document, TableReader& outer, const char* name, std::vector<Table>& targets)
+{
+    for (const toml::table* table : outer.tables(name)) {
+        TableReader reader(document, table, outer.path() + "." + name + "[" + std::to_string(targets.size()) + "]");
+        read_keys(reader, targets.emplace_back());
+        reader.refuse_unknown();
+    }
+}
+
+void read_inner_tables(TomlDocument& document, TableReader& reader, PinsScene&, Scene& scene)
+{
+    read_repeated(document, reader, "motion", scene.pin_motions);
+}
+
+void read_inner_tables(TomlDocument& document, TableReader& reader, BodyScene& body, Scene&)
+{
+    read_repeated(document, reader, "keyframe", body.keyframes);
 }
 
 template <class Table>
@@ -72,11 +96,12 @@ void read_table(TomlDocument& document, TableReader& top, const char* name, Tabl
 }
 
 template <class Table>
-void read_tables(TomlDocument& document, TableReader& top, const char* name, std::vector<Table>& targets)
+void read_tables(TomlDocument& document, TableReader& top, const char* name, std::vector<Table>& targets, Scene& scene)
 {
     for (const toml::table* table : top.tables(name)) {
         TableReader reader(document, table, std::string(name) + "[" + std::to_string(targets.size()) + "]");
         read_keys(reader, targets.emplace_back());
+        read_inner_tables(document, reader, targets.back(), scene);
         reader.refuse_unknown();
     }
 }
@@ -103,6 +128,12 @@ std::vector<std::string> read_top_keys(TableReader& top, std::string& summary)
 
 }  // namespace
 
+bool Scene::moves() const
+{
+    return !pin_motions.empty() ||
+           std::any_of(bodies.begin(), bodies.end(), [](const BodyScene& body) { return body.moves(); });
+}
+
 InputPlace Scene::place(const std::string& key) const
 {
     const auto known = places.find(key);
@@ -114,11 +145,10 @@ std::string Scene::resolve(const std::string& file_name) const
     return (fs::path(folder) / file_name).string();
 }
 
-Scene read_scene(const std::string& source, std::span<const std::string> overrides)
-{
-    TomlDocument document = read_document(source);
-    for (const std::string& text : overrides) apply_override(document, text);
+namespace {
 
+Scene scene_of(TomlDocument document, const std::string& source)
+{
     Scene scene;
     scene.file = source;
     scene.name = is_builtin(source) ? source.substr(builtin_prefix.size()) : fs::path(source).stem().string();
@@ -132,8 +162,8 @@ Scene read_scene(const std::string& source, std::span<const std::string> overrid
 #define SCENE_TABLE(name, type, keys, meaning) read_table(document, top, #name, scene.name, scene);
     SCENE_TABLES(SCENE_TABLE)
 #undef SCENE_TABLE
-    read_tables(document, top, "sheet", scene.sheets);
-    read_tables(document, top, "body", scene.bodies);
+    read_tables(document, top, "sheet", scene.sheets, scene);
+    read_tables(document, top, "body", scene.bodies, scene);
     read_fabrics(document, top, scene);
     top.refuse_unknown();
     scene.places = std::move(document.places);
@@ -141,6 +171,20 @@ Scene read_scene(const std::string& source, std::span<const std::string> overrid
     check_scene(scene);
     resolve_fabrics(scene);
     return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& source, std::span<const std::string> overrides)
+{
+    TomlDocument document = read_document(source);
+    for (const std::string& text : overrides) apply_override(document, text);
+    return scene_of(std::move(document), source);
+}
+
+Scene read_scene_text(const std::string& text, const std::string& source)
+{
+    return scene_of(parse_toml(text, source), source);
 }
 
 std::vector<SceneInfo> builtin_scenes()

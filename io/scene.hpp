@@ -28,8 +28,16 @@ SCENE_TABLES(SCENE_TABLE)
 struct SheetScene {
     SHEET_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
 };
+struct KeyframeScene {
+    KEYFRAME_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
+};
 struct BodyScene {
     BODY_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
+    std::vector<KeyframeScene> keyframes;   ///< [[body.keyframe]]
+    bool moves() const { return !keyframes.empty() || !sequence.empty(); }
+};
+struct PinMotionScene {
+    PIN_MOTION_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
 };
 #undef SCENE_KEY
 #undef SCENE_WORD
@@ -49,10 +57,12 @@ struct Scene {
     std::map<std::string, std::string> panel_fabrics;   ///< [garment.fabrics]: panel name to fabric name.
     std::vector<SheetScene> sheets;                     ///< [[sheet]]
     std::vector<BodyScene> bodies;                      ///< [[body]]
+    std::vector<PinMotionScene> pin_motions;            ///< [[pins.motion]]
     std::map<std::string, Fabric> fabrics;              ///< Every fabric that the scene names, resolved and checked.
     std::map<std::string, InputPlace> places;           ///< Key path to its place in the file, for later messages.
 
     bool has_garment() const { return !garment.pattern.empty(); }
+    bool moves() const;   ///< A body or a pin has a motion of its own.
     /// Returns the place of a key path such as `body[0].mesh`; only the file when the key was not given.
     InputPlace place(const std::string& key) const;
     /// Returns a file name from the scene, resolved against the scene's folder.
@@ -64,6 +74,11 @@ struct Scene {
 /// @param overrides  `table.key=value` in TOML syntax; a bare word is taken as a string; `sheet.KEY` sets every sheet
 /// @throws InputError with file, line, column, key, value and expectation for the first fault.
 Scene read_scene(const std::string& source, std::span<const std::string> overrides);
+
+/// Reads and checks a scene whose text is at hand, such as that which a run keeps.
+/// @param source  where the text once stood: file names in it are resolved against its folder
+/// @throws InputError as read_scene
+Scene read_scene_text(const std::string& text, const std::string& source);
 
 struct SceneInfo {
     std::string name;

@@ -45,11 +45,72 @@ void check_sheet(const Scene& scene, int index)
     if (sheet.shape == "mesh") check_file(scene, path + "mesh", sheet.mesh, "an OBJ file, as shape is mesh");
 }
 
+// What moves a body must fit its shape, and keyframes follow each other in time.
+void check_motion(const Scene& scene, int index)
+{
+    const BodyScene& body = scene.bodies[std::size_t(index)];
+    const std::string path = "body[" + std::to_string(index) + "].";
+    if (!body.sequence.empty() && body.shape != "mesh")
+        throw InputError(scene.place(path + "sequence"), "`" + body.sequence + "` for a " + body.shape,
+                         "no sequence, or shape = \"mesh\"");
+    double last = 0;
+    for (std::size_t k = 0; k < body.keyframes.size(); ++k) {
+        const KeyframeScene& key = body.keyframes[k];
+        const std::string at = path + "keyframe[" + std::to_string(k) + "].";
+        if (!(key.time > last))
+            throw InputError(scene.place(at + "time"), number_text(key.time) + " s",
+                             "a time above " + number_text(last) + " s, that of the keyframe before");
+        last = key.time;
+        if (!std::isnan(key.arm_angle) && body.shape != "mannequin")
+            throw InputError(scene.place(at + "arm_angle"), "an arm angle for a " + body.shape,
+                             "none, or shape = \"mannequin\"");
+        if (key.mesh.empty()) continue;
+        if (body.shape != "mesh" || !body.sequence.empty())
+            throw InputError(scene.place(at + "mesh"), "`" + key.mesh + "`",
+                             "none, or shape = \"mesh\" without a sequence");
+        check_file(scene, at + "mesh", key.mesh, "an OBJ file of the pose");
+    }
+}
+
+void check_pin_motion(const Scene& scene, int index)
+{
+    const PinMotionScene& motion = scene.pin_motions[std::size_t(index)];
+    const std::string path = "pins.motion[" + std::to_string(index) + "].";
+    if (!(motion.end > motion.start))
+        throw InputError(scene.place(path + "end"), number_text(motion.end) + " s",
+                         "a time above `start`, " + number_text(motion.start) + " s");
+    if (motion.turns != 0 && motion.axis.norm() == 0)
+        throw InputError(scene.place(path + "axis"), "[0, 0, 0]", "a direction, as the group turns");
+    if (scene.sheets.empty())
+        throw InputError(scene.place(path + "group"), "a scene without [[sheet]]", "a sheet whose vertices can be held");
+}
+
+// What moves feeds energy in, which cannot be told from what an unstable step does; and a rest at part of the weight
+// is none while something moves.
+void check_solver_of_motion(const Scene& scene)
+{
+    if (!scene.moves()) return;
+    const std::string& integrator = scene.solver.integrator;
+    if (integrator != "automatic" && integrator != "implicit_euler" && integrator != "bdf2")
+        throw InputError(scene.place("solver.integrator"), "`" + integrator + "`",
+                         "automatic, implicit_euler or bdf2, as a body or pin moves");
+    if (scene.solver.load_steps > 1)
+        throw InputError(scene.place("solver.load_steps"), std::to_string(scene.solver.load_steps),
+                         "1, as a body or pin moves");
+}
+
 void check_body(const Scene& scene, int index, std::set<std::string>& names)
 {
     const BodyScene& body = scene.bodies[std::size_t(index)];
     const std::string path = "body[" + std::to_string(index) + "].";
-    if (body.shape == "mesh") check_file(scene, path + "mesh", body.mesh, "an OBJ file, as shape is mesh");
+    if (body.shape == "mesh" && (body.sequence.empty() || !body.mesh.empty()))
+        check_file(scene, path + "mesh", body.mesh, "an OBJ file, as shape is mesh");
+    check_motion(scene, index);
+    if (body.shape == "torus" && !(body.tube < body.radius))
+        throw InputError(scene.place(path + "tube"), number_text(body.tube) + " m",
+                         "less than the radius of " + number_text(body.radius) + " m");
+    if (body.shape == "torus" && body.normal.norm() == 0)
+        throw InputError(scene.place(path + "normal"), "[0, 0, 0]", "a direction");
     if (body.shape == "plane" && body.normal.norm() == 0)
         throw InputError(scene.place(path + "normal"), "[0, 0, 0]", "a direction");
     if (body.shape == "capsule" && body.center == body.end)
@@ -110,8 +171,10 @@ void check_scene(const Scene& scene)
     for (int sheet = 0; sheet < int(scene.sheets.size()); ++sheet) check_sheet(scene, sheet);
     std::set<std::string> names;
     for (int body = 0; body < int(scene.bodies.size()); ++body) check_body(scene, body, names);
+    for (int motion = 0; motion < int(scene.pin_motions.size()); ++motion) check_pin_motion(scene, motion);
     check_until(scene);
     check_pins(scene);
+    check_solver_of_motion(scene);
 }
 
 void resolve_fabrics(Scene& scene)

@@ -15,7 +15,9 @@
     WORD(up_axis, "auto", "auto|x|y|z", "up direction of the pattern file; auto: y for GarmentCode JSON")        \
     WORD(rotation_order, "xyz", "xyz|zyx|yxz|yzx|zxy|xzy",                                                       \
          "order in which a GarmentCode panel's rotations are applied; xyz means R = Rz Ry Rx")                   \
-    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")
+    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")                                     \
+    KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                         \
+    VEC3(copy_offset, 0, 0, 1, "m", "way from one copy to the next")
 
 #define SHEET_KEYS(KEY, WORD, VEC3)                                                                              \
     WORD(shape, "rectangle", "rectangle|disc|mesh", "outline of the sheet")                                      \
@@ -34,17 +36,18 @@
 
 #define BODY_KEYS(KEY, WORD, VEC3)                                                                               \
     WORD(name, "", "", "name in messages and in body.obj")                                                       \
-    WORD(shape, "mesh", "mesh|mannequin|sphere|plane|capsule|cylinder", "kind of body")                          \
+    WORD(shape, "mesh", "mesh|mannequin|sphere|plane|capsule|cylinder|cone|torus", "kind of body")                          \
     WORD(mesh, "", "", "OBJ file (shape = mesh)")                                                                \
     WORD(unit, "m", "m|cm|mm|inch", "length unit of the mesh file")                                              \
     WORD(up_axis, "z", "x|y|z", "up direction of the mesh file")                                                 \
-    VEC3(center, 0, 0, 0, "m", "centre (sphere, cylinder), a point (plane), first end (capsule), shift (mesh, mannequin)") \
+    VEC3(center, 0, 0, 0, "m", "centre (sphere, cylinder, torus), a point (plane), first end (capsule), middle of the base (cone), shift (mesh, mannequin)") \
     VEC3(end, 0, 0, 1, "m", "second end (capsule)")                                                              \
-    VEC3(normal, 0, 0, 1, "1", "upward normal (plane)")                                                          \
+    VEC3(normal, 0, 0, 1, "1", "upward normal (plane), axis (torus)")                                                          \
     VEC3(rotation, 0, 0, 0, "degrees", "turns about x, then y, then z (mesh, mannequin)")                        \
     KEY(double, scale, 1, "1", 1e-4, 1e4, "scales the mesh")                                                     \
-    KEY(double, radius, 0.25, "m", 1e-4, 100, "radius (sphere, capsule, cylinder)")                              \
-    KEY(double, height, 0.1, "m", 1e-4, 100, "height of an upright cylinder")                                    \
+    KEY(double, radius, 0.25, "m", 1e-4, 100, "radius (sphere, capsule, cylinder), of the base (cone), of the circle in the middle of the tube (torus)") \
+    KEY(double, height, 0.1, "m", 1e-4, 100, "height of an upright cylinder or cone")                            \
+    KEY(double, tube, 0.02, "m", 1e-4, 100, "radius of the tube (torus)")                                        \
     KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient; automatic: the fabric's")                 \
     WORD(size, "M", "S|M|L", "mannequin size; single measurements below override it")                            \
     KEY(double, stature, automatic, "m", 0.8, 2.5, "mannequin: body height")                                     \
@@ -54,7 +57,20 @@
     KEY(double, shoulder_width, automatic, "m", 0.2, 0.8, "mannequin: shoulder to shoulder")                     \
     KEY(double, neck, automatic, "m", 0.2, 0.8, "mannequin: neck girth")                                         \
     KEY(double, arm_length, automatic, "m", 0.3, 1.2, "mannequin: shoulder to wrist")                            \
-    KEY(double, arm_angle, automatic, "degrees", 0, 90, "mannequin: arm below the horizontal; 90 hangs down")
+    KEY(double, arm_angle, automatic, "degrees", 0, 90, "mannequin: arm below the horizontal; 90 hangs down")    \
+    WORD(interpolation, "linear", "linear|smooth",                                                               \
+         "between two keyframes: at a steady speed, or smoothly from rest to rest as 3 s^2 - 2 s^3")             \
+    WORD(sequence, "", "", "OBJ files of the body's poses, as pose_*.obj, taken by name (shape = mesh); same faces in each, positions change linearly from one to the next") \
+    KEY(double, sequence_rate, 25, "1/s", 0.01, 10000, "poses per second of the sequence, the first at sequence_start") \
+    KEY(double, sequence_start, 0, "s", 0, 1e6, "time at which the sequence begins")
+
+// [[body.keyframe]]: where a body is at a time, relative to how it starts; it stays as at the last one.
+#define KEYFRAME_KEYS(KEY, WORD, VEC3)                                                                           \
+    KEY(double, time, 0, "s", 0, 1e6, "when the body is there; above that of the keyframe before, which starts at 0") \
+    VEC3(translation, 0, 0, 0, "m", "way from where it starts")                                                  \
+    VEC3(rotation, 0, 0, 0, "degrees", "turns through `center` about x, then y, then z from how it starts; the angles are interpolated, so 720 is two turns") \
+    KEY(double, arm_angle, automatic, "degrees", 0, 80, "mannequin: arm below the horizontal; automatic: as before") \
+    WORD(mesh, "", "", "OBJ file of the pose, with the faces of the body's own (shape = mesh); none: as before")
 
 #define FABRIC_KEYS(KEY, WORD, CURVE)                                                                            \
     WORD(base, "", "", "preset whose values are used where this table is silent")                                \
@@ -129,9 +145,20 @@
     KEY(double, max_time, 20, "s", 0.01, 1e4, "simulated time after which sewing gives up")
 
 #define PINS_KEYS(KEY, WORD, VEC3)                                                                               \
-    WORD(sheet, "none", "none|corners|top_corners|top_edge|left_edge|two_rows",                                  \
-         "which vertices of a sheet are held; top is +warp, left is -weft, two_rows holds the first two columns at the left") \
+    WORD(sheet, "none", "none|corners|top_corners|right_corners|top_edge|left_edge|right_edge|two_rows|center",  \
+         "which vertices of a sheet are held; top is +warp, left is -weft, two_rows holds the first two columns at the left, center the vertex nearest to the middle") \
     WORD(vertices, "", "", "indices of further held vertices, separated by commas")
+
+// [[pins.motion]]: a group of vertices that is held and moves; several are applied one after the other.
+#define PIN_MOTION_KEYS(KEY, WORD, VEC3)                                                                         \
+    WORD(group, "corners", "corners|top_corners|right_corners|top_edge|left_edge|right_edge|center",             \
+         "which vertices of a sheet move, as for pins.sheet; they are held from the start")                      \
+    KEY(double, start, 0, "s", 0, 1e6, "when the motion begins")                                                 \
+    KEY(double, end, 1, "s", 0, 1e6, "when it ends; the vertices then stay held")                                \
+    VEC3(velocity, 0, 0, 0, "m/s", "of the group while it moves")                                                \
+    KEY(double, turns, 0, "1", -1000, 1000, "whole turns about the axis from start to end, counter-clockwise")   \
+    VEC3(axis, 0, 0, 1, "1", "direction of the axis")                                                            \
+    VEC3(point, 0, 0, 0, "m", "a point of the axis")
 
 #define WIND_KEYS(KEY, WORD, VEC3)                                                                               \
     VEC3(velocity, 0, 0, 0, "m/s", "wind; zero: none")

@@ -93,6 +93,12 @@ std::vector<TableText> tables()
                     {SHEET_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
     list.push_back({"[[body]]", "body", "what the cloth falls on; may be repeated", true,
                     {BODY_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+    list.push_back({"[[body.keyframe]]", "body.keyframe",
+                    "where a body is at a time, under its [[body]]; it moves from one to the next and stays at the last",
+                    true, {KEYFRAME_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+    list.push_back({"[[pins.motion]]", "pins.motion",
+                    "held vertices that move; those that share vertices act one after the other on where these are", true,
+                    {PIN_MOTION_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
     list.push_back({"[fabric.NAME]", "fabric.NAME", "a fabric of the scene's own, or changes to a built-in one", false,
                     {FABRIC_KEYS(LIST_KEY, LIST_WORD, LIST_CURVE)}});
     return list;

@@ -62,7 +62,8 @@ void add_state(Json& json, const RunSummary& summary)
                        {"max", number(summary.stretch.max)},
                        {"p99", number(summary.stretch.p99)}};
     json["body"] = {{"max_penetration_m", number(summary.body_max_penetration)},
-                    {"min_gap_m", number(summary.body_min_gap)}};
+                    {"min_gap_m", number(summary.body_min_gap)},
+                    {"intersections", count(summary.body_intersections)}};
     json["self"] = Json::object({{"intersections", count(summary.self_intersections)}});
     json["seams"] = {{"count", count(summary.seam_count)}, {"max_gap_m", number(summary.seam_max_gap)}};
     json["panels"] = panels_json(summary);

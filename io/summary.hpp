@@ -65,7 +65,7 @@ struct RunSummary {
         double min = unknown, max = unknown, p99 = unknown;
     } stretch;                                             ///< Principal stretch - 1.
     double body_max_penetration = unknown, body_min_gap = unknown;   ///< [m]
-    std::int64_t self_intersections = -1;
+    std::int64_t self_intersections = -1, body_intersections = -1;   ///< Pairs of triangles in the last frame.
     int seam_count = -1;
     double seam_max_gap = unknown;                         ///< [m]
     std::vector<PanelFit> panels;

@@ -22,6 +22,10 @@ PositionGrid position_grid(const std::string& word);
 /// Distance of neighbouring grid values [m]: 0, 2^-17 or 2^-14.
 double grid_spacing(PositionGrid grid);
 
+/// Returns a position as it is written: rounded to the grid, then to single precision [m].
+/// @param spacing  see grid_spacing
+Eigen::Vector3f written_position(const Vec3& position, double spacing);
+
 /// Everything of a run that does not change from frame to frame.
 struct TrajectoryLayout {
     int point_count = 0;
@@ -32,6 +36,7 @@ struct TrajectoryLayout {
     std::vector<std::array<int, 2>> seam_pairs;             ///< Points that are sewn to each other.
     std::vector<std::string> panel_names;
     std::string scene_text;                                 ///< The whole scene as run.
+    std::string scene_file;                                 ///< Absolute path of the scene, or builtin:NAME.
     std::string version;                                    ///< Of the program that writes.
     PositionGrid grid = PositionGrid::fine_8um;
 };

@@ -73,6 +73,7 @@ void write_attributes(Hdf5File& file, const TrajectoryLayout& layout)
     file.set_text("/selvage", "schema", schema);
     file.set_text("/selvage", "version", layout.version);
     file.set_text("/selvage", "scene_text", layout.scene_text);
+    file.set_text("/selvage", "scene_file", layout.scene_file);
     file.set_text("/selvage", "length_unit", "m");
     file.set_text("/selvage", "up_axis", "z");
     file.set_real("/selvage", "position_grid", grid_spacing(layout.grid));

@@ -38,6 +38,7 @@ TrajectoryLayout read_layout(const Hdf5File& file)
     layout.seam_pairs = rows_of<std::array<int, 2>>(file.read_integers("/selvage/seam_pairs"));
     layout.panel_names = file.texts("/selvage", "panel_names");
     layout.scene_text = file.text("/selvage", "scene_text");
+    layout.scene_file = file.text("/selvage", "scene_file");
     layout.version = file.text("/selvage", "version");
     layout.grid = grid_with_spacing(file.real("/selvage", "position_grid"));
     return layout;

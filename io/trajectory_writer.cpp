@@ -72,6 +72,13 @@ double grid_spacing(PositionGrid grid)
     return std::ldexp(1.0, grid == PositionGrid::fine_8um ? -17 : -14);
 }
 
+Eigen::Vector3f written_position(const Vec3& position, double spacing)
+{
+    if (spacing == 0) return position.cast<float>();
+    const Vec3 rounded = (position / spacing).array().round() * spacing;
+    return rounded.cast<float>();
+}
+
 TrajectoryWriter::TrajectoryWriter(const std::string& path, const TrajectoryLayout& layout, std::vector<double> times)
     : path_(path), point_count_(layout.point_count), triangle_count_(int(layout.triangles.size())),
       spacing_(grid_spacing(layout.grid)), times_(std::move(times)), buffer_(3 * layout.panel.size()),
@@ -111,9 +118,8 @@ void TrajectoryWriter::write_frame(std::span<const Vec3> positions, const FrameS
         if (!positions[point].allFinite())
             throw std::runtime_error("trajectory: the position of vertex " + std::to_string(point) + " at t = " +
                                      std::to_string(scalars.time) + " s is not finite");
-        Vec3 rounded = positions[point];
-        if (spacing_ > 0) rounded = (rounded / spacing_).array().round() * spacing_;
-        for (int axis = 0; axis < 3; ++axis) buffer_[3 * point + std::size_t(axis)] = float(rounded[axis]);
+        const Eigen::Vector3f written = written_position(positions[point], spacing_);
+        for (int axis = 0; axis < 3; ++axis) buffer_[3 * point + std::size_t(axis)] = written[axis];
     }
     const int frame = frame_count();
     const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(point_count_), 0}, count{hsize_t(point_count_), 3};

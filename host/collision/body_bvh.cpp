@@ -92,50 +92,86 @@ struct BodyBvh::Impl {
     std::vector<Corners> corners;
     Vec3 origin = Vec3::Zero();       // single-precision coordinates are relative to it
     double extent = 0;                // largest distance of a triangle from the origin [m]
+    RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    float* vertex = nullptr;          // the hierarchy's own, nine per triangle
 
     ~Impl() { rtcReleaseScene(scene); }
+    void read_corners();
+    void write_vertices();
+    void commit();
     double slack(const Vec3& x) const { return rounding * (extent + (x - origin).norm()); }
 };
 
-BodyBvh::BodyBvh(const EmbreeDevice& device, const BodySurface& surface, const Box& reach)
+void BodyBvh::Impl::read_corners()
+{
+    Box box;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        const int t = triangles[k];
+        corners[k] = {surface->corner(t, 0), surface->corner(t, 1), surface->corner(t, 2)};
+        for (const Vec3* corner : {&corners[k].a, &corners[k].b, &corners[k].c}) box.extend(*corner);
+    }
+    origin = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
+    extent = box.isEmpty() ? 0 : box.diagonal().norm() / 2;
+}
+
+void BodyBvh::Impl::write_vertices()
+{
+    float* to = vertex;
+    for (const Corners& t : corners)
+        for (const Vec3* corner : {&t.a, &t.b, &t.c})
+            for (int c = 0; c < 3; ++c) *to++ = float((*corner)[c] - origin[c]);
+}
+
+void BodyBvh::Impl::commit()
+{
+    rtcCommitScene(scene);
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+        throw std::runtime_error("Embree failed to build a body's hierarchy");
+}
+
+BodyBvh::BodyBvh(const EmbreeDevice& device, const BodySurface& surface, const Box& reach, bool deforms)
     : impl_(std::make_unique<Impl>())
 {
     impl_->surface = &surface;
-    Box box;
-    for (int t = 0; t < surface.triangle_count(); ++t) {
-        if (!surface.has_area(t) || !touches(surface, t, reach)) continue;
-        impl_->triangles.push_back(t);
-        impl_->corners.push_back({surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)});
-        for (int k = 0; k < 3; ++k) box.extend(surface.corner(t, k));
-    }
+    for (int t = 0; t < surface.triangle_count(); ++t)
+        if (surface.has_area(t) && touches(surface, t, reach)) impl_->triangles.push_back(t);
     const int count = triangle_count();
-    if (count > 0) {
-        impl_->origin = box.center();
-        impl_->extent = box.diagonal().norm() / 2;
-    }
-    const RTCDevice rtc = static_cast<RTCDevice>(device.handle());
+    impl_->corners.resize(std::size_t(count));
+    impl_->read_corners();
+    const RTCDevice rtc = impl_->device = static_cast<RTCDevice>(device.handle());
     impl_->scene = rtcNewScene(rtc);
-    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
+    // Only the two-level hierarchies of dynamic scenes are refitted.
+    rtcSetSceneFlags(impl_->scene,
+                     deforms ? RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC) : RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(impl_->scene, deforms ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
     if (count > 0) {
         const RTCGeometry geometry = rtcNewGeometry(rtc, RTC_GEOMETRY_TYPE_TRIANGLE);
-        float* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+        if (deforms) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+        impl_->vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), std::size_t(3) * count));
         unsigned* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), std::size_t(count)));
-        if (!vertex || !index) throw std::bad_alloc();
-        for (const Corners& t : impl_->corners)
-            for (const Vec3* corner : {&t.a, &t.b, &t.c})
-                for (int c = 0; c < 3; ++c) *vertex++ = float((*corner)[c] - impl_->origin[c]);
+        if (!impl_->vertex || !index) throw std::bad_alloc();
+        impl_->write_vertices();
         for (int k = 0; k < 3 * count; ++k) index[k] = unsigned(k);
         rtcSetGeometryIntersectFilterFunction(geometry, note_entry);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(impl_->scene, geometry);
         rtcReleaseGeometry(geometry);
     }
-    rtcCommitScene(impl_->scene);
-    if (rtcGetDeviceError(rtc) != RTC_ERROR_NONE) throw std::runtime_error("Embree failed to build a body's hierarchy");
+    impl_->commit();
+}
+
+void BodyBvh::refit()
+{
+    if (triangle_count() == 0) return;
+    impl_->read_corners();
+    impl_->write_vertices();
+    const RTCGeometry geometry = rtcGetGeometry(impl_->scene, 0);
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(geometry);
+    impl_->commit();
 }
 
 BodyBvh::~BodyBvh() = default;

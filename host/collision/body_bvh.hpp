@@ -1,13 +1,10 @@
 #pragma once
 #include <memory>
 
-#include <Eigen/Geometry>
-
+#include "host/collision/body_motion.hpp"
 #include "host/collision/body_surface.hpp"
 
 namespace selvage {
-
-using Box = Eigen::AlignedBox3d;   ///< [m]
 
 /// The ray tracing library's device, shared by all bodies of a scene.
 class EmbreeDevice {
@@ -39,10 +36,14 @@ struct SurfaceEntry {
 class BodyBvh {
 public:
     /// @param surface  must outlive this object
-    BodyBvh(const EmbreeDevice& device, const BodySurface& surface, const Box& reach);
+    /// @param deforms  the surface will change and `refit` be called: built so that this is quick
+    BodyBvh(const EmbreeDevice& device, const BodySurface& surface, const Box& reach, bool deforms = false);
     ~BodyBvh();
     BodyBvh(BodyBvh&&) noexcept;
     BodyBvh& operator=(BodyBvh&&) noexcept;
+
+    /// Takes over the places to which the surface's vertices have moved; the hierarchy keeps its shape.
+    void refit();
 
     int triangle_count() const;   ///< In the hierarchy.
     double far_radius(const Vec3& x) const;   ///< A radius around x that holds the whole body [m].

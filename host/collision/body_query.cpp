@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -29,12 +30,34 @@ struct MeshBody {
     int body;                        // index among all bodies
     const BodySurface* surface;
     BodyBvh bvh;
+    int mover;                       // index among those that move, or -1
 };
 
 struct AnalyticBody {
     int body;
-    analytic_body shape;
+    analytic_body shape, at_start;
 };
+
+constexpr int steps_per_look = 4;     // parts of a time whose ways are added up, so that no turn is missed
+
+/// A body that moves: where it is and where it was before the last move.
+struct Mover {
+    int body;
+    std::shared_ptr<const BodyMotion> motion;
+    Box box;                             // of the body as it starts
+    bool plane;                          // infinite: turning moves it without bound
+    Placement now, before;
+    std::vector<Vec3> vertices_before;   // of a body that deforms
+    bool moved;                          // in the last move
+};
+
+analytic_body placed(analytic_body shape, const Placement& place)
+{
+    shape.center = kernel_vector(place * host_vector(shape.center));
+    shape.end = kernel_vector(place * host_vector(shape.end));
+    shape.normal = kernel_vector(place.linear() * host_vector(shape.normal));
+    return shape;
+}
 
 analytic_body closed_form(const Body& body)
 {
@@ -94,23 +117,48 @@ struct BodyQuery::Impl {
     Box reach;
     std::vector<MeshBody> meshes;
     BodyQueryCounts counts;
+    std::vector<Mover> movers;
+    std::vector<int> mover_of;                           // per body; -1: it stands still
+    double time = 0;
+    double travel = 0;                                   // bound of the way of any surface point in all moves [m]
 
     // What is known about each vertex from its last search.
     std::vector<Vec3> last_position;
     std::vector<double> lower_bound;                     // of the distance to any body from last_position [m]
     std::vector<int> last_body, last_triangle;
+    std::vector<double> last_travel;                     // only if there are movers [m]
+    std::vector<Vec3> last_weights;                      // of the closest point in its triangle; only if there are movers
 
+    Vec3 to_body(const MeshBody& mesh, const Vec3& x) const
+    {
+        return mesh.mover < 0 ? x : Vec3(movers[mesh.mover].now.inverse() * x);
+    }
+    Vec3 to_scene(const MeshBody& mesh, const Vec3& direction) const
+    {
+        return mesh.mover < 0 ? direction : Vec3(movers[mesh.mover].now.linear() * direction);
+    }
     std::vector<MeshBody> build(const Box& box) const;
     void cover(const Box& needed);
     Nearest search(const Vec3& x, double radius, int hint_body, int hint_triangle) const;
     bool update(int vertex, const Vec3& x, double radius, const ContactPlanes& planes);
-    BodyCrossing first_crossing(const Vec3& x0, const Vec3& x1) const;
+    void note_surface(int vertex, const Vec3& x);
+    void add_mover(int index, const Body& body);
+    void move(Mover& mover, double to);
+    Vec3 carried(const Mover& mover, int vertex, const Vec3& point) const;
+    Vec3 start_relative_to(int body, int vertex, const Vec3& x0) const;
+    BodyCrossing first_crossing(int vertex, const Vec3& x0, const Vec3& x1) const;
 };
 
 std::vector<MeshBody> BodyQuery::Impl::build(const Box& box) const
 {
     std::vector<MeshBody> built;
-    for (const auto& [body, surface] : surfaces) built.push_back({body, &surface, BodyBvh(*device, surface, box)});
+    constexpr double far = std::numeric_limits<double>::max();
+    const Box everywhere(Vec3::Constant(-far), Vec3::Constant(far));
+    for (const auto& [body, surface] : surfaces) {
+        const int mover = mover_of[body];   // of what moves all may come within reach
+        const bool deforms = mover >= 0 && movers[mover].motion->deforms();
+        built.push_back({body, &surface, BodyBvh(*device, surface, mover < 0 ? box : everywhere, deforms), mover});
+    }
     return built;
 }
 
@@ -135,18 +183,19 @@ Nearest BodyQuery::Impl::search(const Vec3& x, double radius, int hint_body, int
     };
     for (const MeshBody& mesh : meshes) {
         const int hint = mesh.body == hint_body ? hint_triangle : -1;
-        const NearestTriangle found = mesh.bvh.nearest(x, search_radius, hint);
+        const Vec3 local = to_body(mesh, x);
+        const NearestTriangle found = mesh.bvh.nearest(local, search_radius, hint);
         if (found.triangle < 0) continue;
         const double distance = std::sqrt(found.squared_distance);
         best.lower_bound = std::min(best.lower_bound, distance);
         if (distance > radius) continue;
-        const SurfaceContact contact = mesh.surface->contact(x, found.triangle);
+        const SurfaceContact contact = mesh.surface->contact(local, found.triangle);
         if (!closer(mesh.body, contact.signed_distance)) continue;
         best.body = mesh.body;
         best.triangle = found.triangle;
         best.signed_distance = contact.signed_distance;
         best.gap = contact.gap;
-        best.normal = contact.normal;
+        best.normal = to_scene(mesh, contact.normal);
     }
     for (const AnalyticBody& body : analytic) {
         const body_contact contact = analytic_contact(kernel_vector(x), &body.shape);
@@ -160,11 +209,58 @@ Nearest BodyQuery::Impl::search(const Vec3& x, double radius, int hint_body, int
     return best;
 }
 
+/// Notes what it takes to go with the surface that was found for a vertex.
+void BodyQuery::Impl::note_surface(int vertex, const Vec3& x)
+{
+    last_travel[vertex] = travel;
+    const int body = last_body[vertex], triangle = last_triangle[vertex];
+    if (triangle < 0 || mover_of[body] < 0 || !movers[mover_of[body]].motion->deforms()) return;
+    const auto surface = std::find_if(surfaces.begin(), surfaces.end(), [&](const auto& s) { return s.first == body; });
+    last_weights[vertex] = surface->second.closest(movers[mover_of[body]].now.inverse() * x, triangle).weights;
+}
+
+void BodyQuery::Impl::add_mover(int index, const Body& body)
+{
+    mover_of.push_back(-1);
+    if (!body.motion) return;
+    mover_of.back() = int(movers.size());
+    Box box;
+    for (const Vec3& x : body.mesh.vertices) box.extend(x);
+    // The tessellation of a closed form lies within it.
+    movers.push_back({index, body.motion, grown(box, 0.01 * box.diagonal().norm()), body.kind == Body::Kind::plane,
+                      Placement::Identity(), Placement::Identity(), {}, false});
+}
+
+void BodyQuery::Impl::move(Mover& mover, double to)
+{
+    const double end = mover.motion->end();
+    mover.moved = std::min(time, end) != std::min(to, end);
+    if (!mover.moved) return;
+    const Placement place = mover.motion->placement(to);
+    const bool turns = !place.linear().isApprox(mover.now.linear(), 1e-15);
+    travel += mover.plane && turns ? std::numeric_limits<double>::infinity() : mover.motion->distance(time, to, mover.box);
+    mover.before = mover.now;
+    mover.now = place;
+    for (AnalyticBody& body : analytic)
+        if (body.body == mover.body) body.shape = placed(body.at_start, mover.now);
+    if (!mover.motion->deforms()) return;
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        if (surfaces[k].first != mover.body) continue;
+        mover.vertices_before = surfaces[k].second.vertices();
+        std::vector<Vec3> vertices;
+        mover.motion->vertices_at(to, vertices);
+        surfaces[k].second.deform(vertices);
+        meshes[k].bvh.refit();
+    }
+}
+
 /// Answers for one vertex; returns whether that took a search.
 bool BodyQuery::Impl::update(int vertex, const Vec3& x, double radius, const ContactPlanes& planes)
 {
-    if (lower_bound[vertex] - (x - last_position[vertex]).norm() > radius) {
+    const double surfaces_moved = movers.empty() ? 0 : travel - last_travel[vertex];
+    if (lower_bound[vertex] - (x - last_position[vertex]).norm() - surfaces_moved > radius) {
         write_plane(planes, vertex, x, {});
+        if (!movers.empty()) last_body[vertex] = -1;
         return false;
     }
     const Nearest nearest = search(x, radius, last_body[vertex], last_triangle[vertex]);
@@ -173,22 +269,46 @@ bool BodyQuery::Impl::update(int vertex, const Vec3& x, double radius, const Con
     lower_bound[vertex] = nearest.lower_bound;
     last_body[vertex] = nearest.body;
     last_triangle[vertex] = nearest.triangle;
+    if (!movers.empty()) note_surface(vertex, x);
     return true;
 }
 
-BodyCrossing BodyQuery::Impl::first_crossing(const Vec3& x0, const Vec3& x1) const
+// Where the last move took a point of a body, or of what goes with the surface of one that deforms.
+Vec3 BodyQuery::Impl::carried(const Mover& mover, int vertex, const Vec3& point) const
+{
+    Vec3 local = mover.before.inverse() * point;
+    if (mover.motion->deforms() && vertex < int(last_body.size()) && last_body[vertex] == mover.body)
+        for (const auto& [index, surface] : surfaces)
+            for (int k = 0; index == mover.body && k < 3; ++k) {
+                const int corner = surface.face(last_triangle[vertex])[k];
+                local += last_weights[vertex][k] * (surface.vertices()[corner] - mover.vertices_before[corner]);
+            }
+    return mover.now * local;
+}
+
+Vec3 BodyQuery::Impl::start_relative_to(int body, int vertex, const Vec3& x0) const
+{
+    const int at = mover_of[body];
+    return at >= 0 && movers[at].moved ? carried(movers[at], vertex, x0) : x0;
+}
+
+BodyCrossing BodyQuery::Impl::first_crossing(int vertex, const Vec3& x0, const Vec3& x1) const
 {
     BodyCrossing first;
-    const auto note = [&](int body, int triangle, double fraction) {
+    const auto note = [&](int body, int triangle, double fraction, const Vec3& from) {
         if (fraction > 1 || fraction > first.fraction || (fraction == first.fraction && body > first.body)) return;
-        first = {body, triangle, fraction};
+        first = {body, triangle, fraction, (1 - fraction) * (x1 - from).norm()};
     };
     for (const MeshBody& mesh : meshes) {
-        const SurfaceEntry entry = mesh.bvh.first_entry(x0, x1);
-        note(mesh.body, entry.triangle, entry.fraction);
+        const Vec3 from = start_relative_to(mesh.body, vertex, x0);
+        const SurfaceEntry entry = mesh.bvh.first_entry(to_body(mesh, from), to_body(mesh, x1));
+        note(mesh.body, entry.triangle, entry.fraction, from);
     }
-    for (const AnalyticBody& body : analytic)
-        note(body.body, -1, std::max(0.0, analytic_crossing(kernel_vector(x0), kernel_vector(x1), &body.shape)));
+    for (const AnalyticBody& body : analytic) {
+        const Vec3 from = start_relative_to(body.body, vertex, x0);
+        const double fraction = analytic_crossing(kernel_vector(from), kernel_vector(x1), &body.shape);
+        note(body.body, -1, std::max(0.0, fraction), from);
+    }
     return first;
 }
 
@@ -197,11 +317,12 @@ BodyQuery::BodyQuery(const std::vector<Body>& bodies, const Box& reach) : impl_(
     impl_->reach = reach;
     for (int index = 0; index < int(bodies.size()); ++index) {
         const Body& body = bodies[index];
+        impl_->add_mover(index, body);
         if (body.kind == Body::Kind::mesh) {
             impl_->surfaces.emplace_back(index, BodySurface(body.mesh));
             impl_->counts.triangles_total += int(body.mesh.faces.size());
         } else {
-            impl_->analytic.push_back({index, closed_form(body)});
+            impl_->analytic.push_back({index, closed_form(body), closed_form(body)});
         }
     }
     if (impl_->surfaces.empty()) return;
@@ -217,6 +338,44 @@ BodyQuery& BodyQuery::operator=(BodyQuery&&) noexcept = default;
 bool BodyQuery::empty() const { return impl_->surfaces.empty() && impl_->analytic.empty(); }
 bool BodyQuery::uses_embree() const { return impl_->device.has_value(); }
 const BodyQueryCounts& BodyQuery::counts() const { return impl_->counts; }
+bool BodyQuery::moves() const { return !impl_->movers.empty(); }
+double BodyQuery::time() const { return impl_->time; }
+
+double BodyQuery::motion_end() const
+{
+    double end = 0;
+    for (const Mover& mover : impl_->movers) end = std::max(end, mover.motion->end());
+    return end;
+}
+
+void BodyQuery::move_to(double time)
+{
+    for (Mover& mover : impl_->movers) impl_->move(mover, time);
+    impl_->time = time;
+}
+
+double BodyQuery::longest_step(double time, double room, double way) const
+{
+    const auto too_far = [&](double dt) {
+        return std::any_of(impl_->movers.begin(), impl_->movers.end(), [&](const Mover& mover) {
+            double sum = 0;
+            for (int k = 0; k < steps_per_look; ++k)
+                sum += mover.motion->distance(time + k * dt / steps_per_look, time + (k + 1) * dt / steps_per_look,
+                                              mover.box);
+            return sum > way;
+        });
+    };
+    double dt = room;
+    while (too_far(dt) && dt > 1e-6 * room) dt *= 0.5;
+    return dt;
+}
+
+Vec3 BodyQuery::carried(int vertex, const Vec3& point) const
+{
+    const int body = impl_->last_body[vertex], at = body < 0 ? -1 : impl_->mover_of[body];
+    if (at < 0) return point;
+    return impl_->movers[at].moved ? impl_->carried(impl_->movers[at], vertex, point) : point;
+}
 
 void BodyQuery::forget()
 {
@@ -224,6 +383,8 @@ void BodyQuery::forget()
     impl_->lower_bound.clear();
     impl_->last_body.clear();
     impl_->last_triangle.clear();
+    impl_->last_travel.clear();
+    impl_->last_weights.clear();
 }
 
 void BodyQuery::nearest(const double* position, int stride, int count, double radius, const ContactPlanes& planes)
@@ -234,6 +395,10 @@ void BodyQuery::nearest(const double* position, int stride, int count, double ra
         impl_->lower_bound.resize(count, 0);
         impl_->last_body.resize(count, -1);
         impl_->last_triangle.resize(count, -1);
+        if (moves()) {
+            impl_->last_travel.resize(count, 0);
+            impl_->last_weights.resize(count, Vec3::Zero());
+        }
     }
     impl_->cover(grown(bounding_box(position, stride, count), search_factor * radius));
     const long long made = tbb::parallel_reduce(
@@ -254,7 +419,7 @@ std::vector<BodyCrossing> BodyQuery::crossings(const double* from, const double*
     std::vector<BodyCrossing> found(count);
     tbb::parallel_for(VertexRange(0, count, vertices_per_task), [&](const VertexRange& range) {
         for (int v = range.begin(); v < range.end(); ++v)
-            found[v] = impl_->first_crossing(vertex_at(from, stride, v), vertex_at(to, stride, v));
+            found[v] = impl_->first_crossing(v, vertex_at(from, stride, v), vertex_at(to, stride, v));
     });
     return found;
 }
@@ -270,8 +435,10 @@ BodyGap BodyQuery::measure(const double* position, int stride, int count) const
     const auto signed_distance = [&](const Vec3& x, std::vector<int>& hints) {
         double smallest = std::numeric_limits<double>::infinity();
         for (std::size_t m = 0; m < meshes.size(); ++m) {
-            hints[m] = meshes[m].bvh.nearest(x, meshes[m].bvh.far_radius(x), hints[m]).triangle;
-            if (hints[m] >= 0) smallest = std::min(smallest, meshes[m].surface->contact(x, hints[m]).signed_distance);
+            const MeshBody& mesh = meshes[m];
+            const Vec3 local = impl_->to_body(mesh, x);
+            hints[m] = mesh.bvh.nearest(local, mesh.bvh.far_radius(local), hints[m]).triangle;
+            if (hints[m] >= 0) smallest = std::min(smallest, mesh.surface->contact(local, hints[m]).signed_distance);
         }
         for (const AnalyticBody& body : impl_->analytic)
             smallest = std::min(smallest, analytic_contact(kernel_vector(x), &body.shape).gap);

@@ -25,6 +25,7 @@ struct BodyCrossing {
     int body = -1;              ///< -1: the path enters no body.
     int triangle = -1;          ///< Face of the body's mesh; -1 for the closed forms.
     double fraction = 2;        ///< Of the path, in [0, 1].
+    double way_beyond = 0;      ///< Length of the path behind the entry [m].
 };
 
 /// Distances of a cloth to the bodies, exact for the triangulated meshes and the closed forms.
@@ -42,7 +43,8 @@ struct BodyQueryCounts {
     int rebuilds = 0;           ///< How often the cloth left its reach.
 };
 
-/// Answers where a cloth is in relation to the bodies of a scene.
+/// Answers where a cloth is in relation to the bodies of a scene, which may move: they start where they are at time 0.
+/// A mesh that moves rigidly is asked in its own frame, one that deforms has its hierarchy refitted.
 /// Results do not depend on the thread count, nor on which queries were skipped.
 class BodyQuery {
 public:
@@ -67,10 +69,33 @@ public:
     /// @param planes    written for vertices 0 to count - 1
     void nearest(const double* position, int stride, int count, double radius, const ContactPlanes& planes);
 
+    bool moves() const;             ///< A body moves at some time.
+    double motion_end() const;      ///< Time after which all bodies stand still [s]; 0 if none moves.
+    double time() const;            ///< At which the bodies are placed [s].
+
+    /// Places all bodies where they are at a time [s].
+    void move_to(double time);
+
+    /// The longest time within `room`, halved as often as needed, in which no body's surface moves further than `way`.
+    /// @param time, room  [s]   @param way  [m], > 0
+    double longest_step(double time, double room, double way) const;
+
+    /// Where the last `move_to` took a point that goes with the surface which the last `nearest` named for a vertex:
+    /// rigidly, and as the closest point of the closest triangle where the body deforms. Without a contact, or where
+    /// the body stands still, the point stays.
+    Vec3 carried(int vertex, const Vec3& point) const;
+
+    /// Velocity of that surface at a point over the last `move_to`, which ended `span` seconds after it began [m/s].
+    Vec3 surface_velocity(int vertex, const Vec3& point, double span) const
+    {
+        return (carried(vertex, point) - point) / span;
+    }
+
     /// Forgets all lower bounds; only speed depends on it, since bounds hold for positions that jumped as well.
     void forget();
 
-    /// Finds for every vertex the first place at which its straight path from `from` to `to` enters a body.
+    /// Finds for every vertex the first place at which its straight path from `from` to `to` enters a body. Where the
+    /// last `move_to` moved the body, the path is that relative to it: `from` holds places before that move.
     std::vector<BodyCrossing> crossings(const double* from, const double* to, int stride, int count);
 
     /// Measures the true signed distances of all vertices, whatever the reach.

@@ -1,5 +1,6 @@
 #include "host/collision/body_shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -49,7 +50,29 @@ Mat3 rotation_matrix(const Vec3& degrees)
         .toRotationMatrix();
 }
 
+// A loaded mesh's vertices in the scene.
+void place(const BodyScene& body_scene, std::vector<Vec3>& vertices)
+{
+    const Mat3 turn = body_scene.scale * rotation_matrix(body_scene.rotation);
+    for (Vec3& vertex : vertices) vertex = turn * vertex + body_scene.center;
+}
+
 }  // namespace
+
+TriangleMesh body_mesh_at(const Body& body, double time)
+{
+    TriangleMesh mesh = body.mesh;
+    if (!body.motion) return mesh;
+    if (body.motion->deforms()) body.motion->vertices_at(time, mesh.vertices);
+    const Placement place = body.motion->placement(time);
+    for (Vec3& vertex : mesh.vertices) vertex = place * vertex;
+    return mesh;
+}
+
+bool any_moves(const std::vector<Body>& bodies)
+{
+    return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.motion != nullptr; });
+}
 
 Body make_body(const BodyScene& body_scene, const Scene& scene, int index)
 {
@@ -75,6 +98,10 @@ Body make_body(const BodyScene& body_scene, const Scene& scene, int index)
         body.mesh = capsule_mesh(body.center, body.end, body.radius);
     } else if (body_scene.shape == "cylinder") {
         body.mesh = cylinder_mesh(body.center, body_scene.radius, body_scene.height);
+    } else if (body_scene.shape == "cone") {
+        body.mesh = cone_mesh(body.center, body_scene.radius, body_scene.height);
+    } else if (body_scene.shape == "torus") {
+        body.mesh = torus_mesh(body.center, body_scene.normal.normalized(), body_scene.radius, body_scene.tube);
     } else {
         throw std::logic_error("make_body: shape \"" + body_scene.shape + "\" needs a loaded mesh");
     }
@@ -86,11 +113,30 @@ Body make_body(const BodyScene& body_scene, const Scene& scene, int index, const
     check_faces(loaded, scene, index);
     Body body = named_body(body_scene, index);
     body.mesh = loaded;
-    const Mat3 turn = body_scene.scale * rotation_matrix(body_scene.rotation);
-    for (Vec3& vertex : body.mesh.vertices) vertex = turn * vertex + body_scene.center;
+    place(body_scene, body.mesh.vertices);
     if (is_closed(body.mesh) && signed_volume(body.mesh) < 0)
         for (Face& face : body.mesh.faces) std::swap(face[1], face[2]);
     return body;
+}
+
+void add_motion(Body& body, const BodyScene& body_scene, std::vector<LoadedPose> poses)
+{
+    if (!body_scene.moves()) return;
+    std::vector<MotionKey> keys;
+    const bool rigid = std::any_of(body_scene.keyframes.begin(), body_scene.keyframes.end(), [](const auto& key) {
+        return !key.translation.isZero() || !key.rotation.isZero();
+    });
+    if (rigid) keys.push_back({});
+    for (const KeyframeScene& key : body_scene.keyframes)
+        if (rigid) keys.push_back({key.time, key.translation, key.rotation * (std::numbers::pi / 180)});
+    auto motion =
+        std::make_shared<BodyMotion>(std::move(keys), body_scene.interpolation == "smooth", body_scene.center);
+    if (!poses.empty()) motion->add_pose(0, body.mesh.vertices, false);
+    for (LoadedPose& pose : poses) {
+        place(body_scene, pose.vertices);
+        motion->add_pose(pose.time, std::move(pose.vertices), pose.smooth);
+    }
+    body.motion = std::move(motion);
 }
 
 }  // namespace selvage

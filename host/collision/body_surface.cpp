@@ -29,6 +29,11 @@ Vec3 unit_or(const Vec3& v, const Vec3& otherwise)
     return norm > 1e-9 ? Vec3(v / norm) : otherwise;
 }
 
+bool same_edge(const std::tuple<int, int, int>& a, const std::tuple<int, int, int>& b)
+{
+    return std::get<0>(a) == std::get<0>(b) && std::get<1>(a) == std::get<1>(b);
+}
+
 int find_root(std::vector<int>& parent, int item)
 {
     while (parent[item] != item) item = parent[item] = parent[parent[item]];
@@ -50,7 +55,19 @@ BodySurface::BodySurface(const TriangleMesh& mesh) : vertices_(mesh.vertices), f
     for (Face& face : faces_)
         for (int& vertex : face) vertex = first[vertex];
     find_face_normals();
-    find_neighbours();
+    const Sides sides = sorted_sides();
+    find_neighbours(sides);
+    find_edge_normals(sides);
+    find_groups();
+    find_corner_normals();
+}
+
+void BodySurface::deform(const std::vector<Vec3>& vertices)
+{
+    if (sides_.empty()) sides_ = sorted_sides();
+    vertices_ = vertices;
+    find_face_normals();
+    find_edge_normals(sides_);
     find_corner_normals();
 }
 
@@ -68,31 +85,43 @@ void BodySurface::find_face_normals()
     }
 }
 
-void BodySurface::find_neighbours()
+// All sides of faces with an area, those of one edge side by side.
+BodySurface::Sides BodySurface::sorted_sides() const
 {
-    edge_normals_.assign(faces_.size(), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
-    neighbour_.assign(faces_.size(), {-1, -1, -1});
-    std::vector<std::tuple<int, int, int>> sides;   // the edge's lower and higher vertex, 3 * face + edge
+    Sides sides;
     for (int f = 0; f < triangle_count(); ++f)
         for (int k = 0; has_area(f) && k < 3; ++k) {
             const auto [low, high] = std::minmax(faces_[f][k], faces_[f][(k + 1) % 3]);
             sides.emplace_back(low, high, 3 * f + k);
         }
     std::sort(sides.begin(), sides.end());
+    return sides;
+}
+
+void BodySurface::find_neighbours(const Sides& sides)
+{
+    neighbour_.assign(faces_.size(), {-1, -1, -1});
     for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
-        const auto& [low, high, side0] = sides[first];
+        while (last < sides.size() && same_edge(sides[last], sides[first])) ++last;
+        if (last - first != 2) continue;
+        const int side0 = std::get<2>(sides[first]), side1 = std::get<2>(sides[first + 1]);
+        if (faces_[side0 / 3][side0 % 3] == faces_[side1 / 3][side1 % 3]) continue;   // wound against each other
+        neighbour_[side0 / 3][side0 % 3] = side1;
+        neighbour_[side1 / 3][side1 % 3] = side0;
+    }
+}
+
+void BodySurface::find_edge_normals(const Sides& sides)
+{
+    edge_normals_.assign(faces_.size(), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
+    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
         Vec3 sum = Vec3::Zero();
-        for (; last < sides.size() && std::get<0>(sides[last]) == low && std::get<1>(sides[last]) == high; ++last)
+        for (; last < sides.size() && same_edge(sides[last], sides[first]); ++last)
             sum += face_normals_[std::get<2>(sides[last]) / 3];
         for (std::size_t k = first; k < last; ++k) {
             const int side = std::get<2>(sides[k]);
             edge_normals_[side / 3][side % 3] = sum;
         }
-        if (last - first != 2) continue;
-        const int side1 = std::get<2>(sides[first + 1]);
-        if (faces_[side0 / 3][side0 % 3] == faces_[side1 / 3][side1 % 3]) continue;   // wound against each other
-        neighbour_[side0 / 3][side0 % 3] = side1;
-        neighbour_[side1 / 3][side1 % 3] = side0;
     }
 }
 
@@ -104,7 +133,7 @@ bool BodySurface::is_sharp(int triangle, int local) const
     return normal.dot(face_normals_[side / 3]) < cosine_sharp && to_opposite.dot(normal) < 0;
 }
 
-void BodySurface::find_corner_normals()
+void BodySurface::find_groups()
 {
     std::vector<int> parent(3 * faces_.size());
     std::iota(parent.begin(), parent.end(), 0);
@@ -116,7 +145,6 @@ void BodySurface::find_corner_normals()
             join(parent, 3 * f + k, 3 * g + (edge + 1) % 3);
             join(parent, 3 * f + (k + 1) % 3, 3 * g + edge);
         }
-    std::vector<Vec3> sum(parent.size(), Vec3::Zero());
     std::vector<int> group_of_vertex(vertices_.size(), -1);
     has_several_groups_.assign(vertices_.size(), false);
     corner_group_.resize(faces_.size());
@@ -126,9 +154,16 @@ void BodySurface::find_corner_normals()
             int& group = group_of_vertex[faces_[f][k]];
             if (group < 0) group = corner_group_[f][k];
             if (group != corner_group_[f][k]) has_several_groups_[faces_[f][k]] = true;
+        }
+}
+
+void BodySurface::find_corner_normals()
+{
+    std::vector<Vec3> sum(3 * faces_.size(), Vec3::Zero());
+    for (int f = 0; f < triangle_count(); ++f)
+        for (int k = 0; has_area(f) && k < 3; ++k)
             sum[corner_group_[f][k]] +=
                 corner_angle(corner(f, k), corner(f, (k + 1) % 3), corner(f, (k + 2) % 3)) * face_normals_[f];
-        }
     corner_normals_.resize(faces_.size());
     for (int f = 0; f < triangle_count(); ++f)
         for (int k = 0; has_area(f) && k < 3; ++k)

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include "host/collision/closest_on_triangle.hpp"
@@ -31,9 +32,15 @@ public:
     /// Vertices at exactly the same position are treated as one; faces without area are ignored.
     explicit BodySurface(const TriangleMesh& mesh);
 
+    /// Moves the vertices; which edges are sharp stays as it was. Faces that had no area must stay without.
+    /// @param vertices  as many as the mesh had [m]
+    void deform(const std::vector<Vec3>& vertices);
+
     int triangle_count() const { return int(faces_.size()); }
     bool has_area(int triangle) const { return face_normals_[triangle].squaredNorm() > 0.5; }
     const Vec3& corner(int triangle, int local) const { return vertices_[faces_[triangle][local]]; }
+    const std::vector<Vec3>& vertices() const { return vertices_; }
+    const Face& face(int triangle) const { return faces_[triangle]; }
     const Vec3& face_normal(int triangle) const { return face_normals_[triangle]; }
 
     ClosestOnTriangle closest(const Vec3& x, int triangle) const
@@ -47,8 +54,13 @@ public:
 private:
     using Corners = std::array<Vec3, 3>;
 
+    using Sides = std::vector<std::tuple<int, int, int>>;   ///< Lower and higher vertex of an edge, 3 * face + edge.
+
     void find_face_normals();
-    void find_neighbours();
+    Sides sorted_sides() const;
+    void find_neighbours(const Sides& sides);
+    void find_edge_normals(const Sides& sides);
+    void find_groups();
     void find_corner_normals();
     bool is_sharp(int triangle, int local) const;
     const Vec3& pseudo_normal(int triangle, const ClosestOnTriangle& closest) const;
@@ -63,6 +75,7 @@ private:
     std::vector<Corners> corner_normals_;       ///< Per face and corner: unit, smooth up to sharp edges.
     std::vector<std::array<int, 3>> corner_group_;   ///< Equal for the corners that share one normal.
     std::vector<char> has_several_groups_;      ///< Per vertex: it lies on sharp edges that divide its faces.
+    Sides sides_;                               ///< Kept by a surface that deforms.
     std::vector<std::array<int, 3>> neighbour_; ///< Per face and edge: 3 * face + edge beyond it, or -1.
 };
 

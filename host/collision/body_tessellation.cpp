@@ -159,6 +159,45 @@ TriangleMesh cylinder_mesh(const Vec3& center, double radius, double height, int
     return mesh;
 }
 
+TriangleMesh cone_mesh(const Vec3& center, double radius, double height, int segment_count)
+{
+    constexpr int rows = 16;     // their heights shrink towards the tip as the rings' edges do
+    TriangleMesh mesh;
+    const int base = add_ring(mesh, center, radius, segment_count);
+    int lower = base;
+    for (int row = 1; row < rows; ++row) {
+        const double left = std::pow(0.8, row);
+        const int upper = add_ring(mesh, center + Vec3(0, 0, (1 - left) * height), left * radius, segment_count);
+        join_rings(mesh, lower, upper, segment_count);
+        lower = upper;
+    }
+    const int tip = int(mesh.vertices.size());
+    mesh.vertices.push_back(center + Vec3(0, 0, height));
+    for (int k = 0; k < segment_count; ++k) mesh.faces.push_back({lower + k, lower + (k + 1) % segment_count, tip});
+    add_disc(mesh, center, radius, base, segment_count, false);
+    return mesh;
+}
+
+TriangleMesh torus_mesh(const Vec3& center, const Vec3& axis, double radius, double tube)
+{
+    constexpr int around = 192, across = 48;
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis);
+    TriangleMesh mesh;
+    for (int i = 0; i < around; ++i)
+        for (int j = 0; j < across; ++j) {
+            const double u = 2 * pi * i / around, v = 2 * pi * j / across, r = radius + tube * std::cos(v);
+            mesh.vertices.push_back(center + turn * Vec3(r * std::cos(u), r * std::sin(u), tube * std::sin(v)));
+        }
+    for (int i = 0; i < around; ++i)
+        for (int j = 0; j < across; ++j) {
+            const int next = (i + 1) % around, up = (j + 1) % across;
+            const int a = i * across + j, b = next * across + j, c = next * across + up, d = i * across + up;
+            mesh.faces.push_back({a, b, c});
+            mesh.faces.push_back({a, c, d});
+        }
+    return mesh;
+}
+
 double signed_volume(const TriangleMesh& mesh)
 {
     double six_volumes = 0;

@@ -17,6 +17,13 @@ TriangleMesh capsule_mesh(const Vec3& first, const Vec3& last, double radius);
 /// @param segment_count  a power of two, >= 16
 TriangleMesh cylinder_mesh(const Vec3& center, double radius, double height, int segment_count = 256);
 
+/// Returns an upright, closed cone whose tip is a single vertex, `center` in the middle of its base.
+/// @param segment_count  around the base, a power of two, >= 16
+TriangleMesh cone_mesh(const Vec3& center, double radius, double height, int segment_count = 32);
+
+/// Returns the surface at distance `tube` from the circle of the given radius about a unit axis; tube < radius.
+TriangleMesh torus_mesh(const Vec3& center, const Vec3& axis, double radius, double tube);
+
 /// Returns the enclosed volume [m^3], positive if the faces are counter-clockwise seen from outside.
 double signed_volume(const TriangleMesh& mesh);
 

@@ -245,6 +245,10 @@ void append_cloth(Cloth& to, const Cloth& other)
     }
     for (const auto& [a, b] : other.seam_pairs) to.seam_pairs.push_back({a + vertices, b + vertices});
     for (const int vertex : other.pinned) to.pinned.push_back(vertex + vertices);
+    for (PinMotion motion : other.pin_motions) {
+        for (int& vertex : motion.vertices) vertex += vertices;
+        to.pin_motions.push_back(std::move(motion));
+    }
 }
 
 }  // namespace selvage

@@ -33,6 +33,16 @@ struct Seam {
     double length_a = 0, length_b = 0;  ///< [m]; unequal for a gathered seam.
 };
 
+/// Held vertices that move: turned about an axis and shifted at a steady rate from `start` to `end` [s].
+struct PinMotion {
+    std::vector<int> vertices;
+    double start = 0, end = 1;
+    Vec3 velocity = Vec3::Zero();       ///< [m/s]
+    Vec3 axis = Vec3::UnitZ();          ///< Unit.
+    Vec3 point = Vec3::Zero();          ///< Of the axis [m].
+    double turns = 0;                   ///< From start to end, counter-clockwise.
+};
+
 /// The flat, unsewn cloth and where it starts. Faces never share vertices across panels: seams join pairs later.
 struct Cloth {
     std::vector<Vec2> panel_coordinates;              ///< Rest position in the panel's plane: (weft, warp) [m].
@@ -43,6 +53,7 @@ struct Cloth {
     std::vector<Seam> seams;
     std::vector<std::array<int, 2>> seam_pairs;       ///< Vertices that are sewn to each other.
     std::vector<int> pinned;                          ///< Held vertices, sorted.
+    std::vector<PinMotion> pin_motions;               ///< Of held vertices; in the order in which they act.
     std::vector<std::string> warnings;                ///< What was odd but could be used.
 };
 

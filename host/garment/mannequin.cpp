@@ -81,6 +81,14 @@ TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace&
     return mesh;
 }
 
+std::vector<Vec3> mannequin_with_arms(const TriangleMesh& mannequin, const MannequinMeasures& measures,
+                                      double arm_angle) {
+    const MannequinShape shape(measures);
+    std::vector<Vec3> vertices = mannequin.vertices;
+    for (Vec3& x : vertices) x = shape.with_arms_at(arm_angle, x);
+    return vertices;
+}
+
 MannequinLandmarks mannequin_landmarks(const MannequinMeasures& measures) {
     check(measures, {"", 0, 0, "body"});
     return MannequinShape(measures).landmarks();

@@ -46,6 +46,10 @@ MannequinMeasures mannequin_size(const std::string& size);
 /// @throws InputError for measures outside the range in which the shape is sound
 TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace& body = {"", 0, 0, "body"});
 
+/// The vertices of a mannequin that make_mannequin() made from these measures, its arms turned about the shoulder
+/// joints: a pose with the same faces. @param arm_angle  below the horizontal [degrees]
+std::vector<Vec3> mannequin_with_arms(const TriangleMesh& mannequin, const MannequinMeasures& measures, double arm_angle);
+
 /// The landmarks of the mannequin that make_mannequin() makes from the same measures.
 /// @throws InputError as make_mannequin()
 MannequinLandmarks mannequin_landmarks(const MannequinMeasures& measures);

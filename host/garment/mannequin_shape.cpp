@@ -136,6 +136,16 @@ double MannequinShape::operator()(const Vec3& point) const {
     return smooth_union(body, arm(point), fillet);
 }
 
+Vec3 MannequinShape::with_arms_at(double arm_angle, const Vec3& point) const {
+    const double blend = 0.03 * scale_;   // Half the width of the skin that stretches [m].
+    const double share = smooth_step(-blend, blend, trunk(point) - arm(point));
+    const double angle = (measures_.arm_angle + share * (arm_angle - measures_.arm_angle)) * std::numbers::pi / 180;
+    const Vec3 along(std::cos(angle), 0, -std::sin(angle)), outer(std::sin(angle), 0, std::cos(angle));
+    const Vec3 p = arm_frame(point);
+    const Vec3 turned = joint_ + p.x() * along + Vec3(0, p.y(), 0) + p.z() * outer;
+    return {std::copysign(turned.x(), point.x()), turned.y(), turned.z()};
+}
+
 Vec3 MannequinShape::exit_point(const Vec3& start, const Vec3& direction, double reach) const {
     double inside = 0, outside = 0;
     const double stride = 0.004;

@@ -16,6 +16,10 @@ public:
     double operator()(const Vec3& point) const;   ///< Signed distance [m], first order; negative inside.
     double trunk(const Vec3& point) const;        ///< The same without arms and hands.
 
+    /// Where a point of the surface goes when the arms turn about the shoulder joints: arms whole, the trunk not at all,
+    /// and smoothly in between. @param arm_angle  new angle below the horizontal [degrees]
+    Vec3 with_arms_at(double arm_angle, const Vec3& point) const;
+
     BodyPart part(const Vec3& point) const;       ///< Part to which a point on the surface belongs.
 
     /// Tape girth [m] of the trunk at a height [m]: the perimeter of the section's convex hull.

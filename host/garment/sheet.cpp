@@ -106,20 +106,23 @@ std::vector<int> listed_vertices(const std::string& list, int vertex_count, cons
     return vertices;
 }
 
+int nearest_vertex(const std::vector<Vec2>& points, const Vec2& place)
+{
+    const auto distance = [&](const Vec2& point) { return (point - place).squaredNorm(); };
+    return int(std::min_element(points.begin(), points.end(),
+                                [&](const Vec2& a, const Vec2& b) { return distance(a) < distance(b); }) -
+               points.begin());
+}
+
 // The vertices nearest to the corners of the bounding box: lower left, lower right, upper left, upper right.
 std::array<int, 4> corner_vertices(const std::vector<Vec2>& points, const Vec2& low, const Vec2& high)
 {
-    const std::array<Vec2, 4> corners{low, Vec2(high.x(), low.y()), Vec2(low.x(), high.y()), high};
-    std::array<int, 4> nearest{0, 0, 0, 0};
-    for (int corner = 0; corner < 4; ++corner)
-        for (int vertex = 1; vertex < int(points.size()); ++vertex)
-            if ((points[vertex] - corners[corner]).squaredNorm() <
-                (points[nearest[corner]] - corners[corner]).squaredNorm())
-                nearest[corner] = vertex;
-    return nearest;
+    return {nearest_vertex(points, low), nearest_vertex(points, Vec2(high.x(), low.y())),
+            nearest_vertex(points, Vec2(low.x(), high.y())), nearest_vertex(points, high)};
 }
 
-void pin(const PinsScene& pins, Cloth& cloth, const std::string& file)
+// The vertices of a sheet that a word of pins.sheet or pins.motion.group names, sorted.
+std::set<int> group_vertices(const std::string& group, const Cloth& cloth, const InputPlace& place)
 {
     const std::vector<Vec2>& points = cloth.panel_coordinates;
     Vec2 low = points.front(), high = points.front();
@@ -128,30 +131,36 @@ void pin(const PinsScene& pins, Cloth& cloth, const std::string& file)
         high = high.cwiseMax(point);
     }
     const double tolerance = 1e-6 * (high - low).maxCoeff();
-    std::set<int> held;
-    const auto hold_edge = [&](int axis, double place) {
+    const auto edge = [&](int axis, double at) {
+        std::set<int> held;
         for (int vertex = 0; vertex < int(points.size()); ++vertex)
-            if (std::abs(points[vertex][axis] - place) <= tolerance) held.insert(vertex);
+            if (std::abs(points[vertex][axis] - at) <= tolerance) held.insert(vertex);
+        return held;
     };
     const std::array<int, 4> corners = corner_vertices(points, low, high);
-    if (pins.sheet == "corners")
-        held.insert(corners.begin(), corners.end());
-    else if (pins.sheet == "top_corners")
-        held.insert(corners.begin() + 2, corners.end());
-    else if (pins.sheet == "top_edge")
-        hold_edge(1, high.y());
-    else if (pins.sheet == "left_edge")
-        hold_edge(0, low.x());
-    else if (pins.sheet == "two_rows") {
-        hold_edge(0, low.x());
-        const std::set<int> first = held;
-        for (const Face& face : cloth.faces)
-            if (std::any_of(face.begin(), face.end(), [&](int vertex) { return first.count(vertex) > 0; }))
-                held.insert(face.begin(), face.end());
-    } else if (pins.sheet != "none")
-        throw InputError({file, 0, 0, "pins.sheet"}, "`" + pins.sheet + "`",
-                         "none, corners, top_corners, top_edge, left_edge or two_rows");
-    for (const int vertex : listed_vertices(pins.vertices, int(points.size()), file)) held.insert(vertex);
+    if (group == "none") return {};
+    if (group == "corners") return {corners.begin(), corners.end()};
+    if (group == "top_corners") return {corners[2], corners[3]};
+    if (group == "right_corners") return {corners[1], corners[3]};
+    if (group == "top_edge") return edge(1, high.y());
+    if (group == "left_edge") return edge(0, low.x());
+    if (group == "right_edge") return edge(0, high.x());
+    if (group == "center") return {nearest_vertex(points, 0.5 * (low + high))};
+    if (group != "two_rows")
+        throw InputError(place, "`" + group + "`", "a group of vertices, which `selvage schema` lists");
+    const std::set<int> first = edge(0, low.x());
+    std::set<int> held = first;
+    for (const Face& face : cloth.faces)
+        if (std::any_of(face.begin(), face.end(), [&](int vertex) { return first.count(vertex) > 0; }))
+            held.insert(face.begin(), face.end());
+    return held;
+}
+
+void pin(const PinsScene& pins, Cloth& cloth, const std::string& file)
+{
+    std::set<int> held = group_vertices(pins.sheet, cloth, {file, 0, 0, "pins.sheet"});
+    for (const int vertex : listed_vertices(pins.vertices, int(cloth.panel_coordinates.size()), file))
+        held.insert(vertex);
     cloth.pinned.assign(held.begin(), held.end());
 }
 
@@ -240,6 +249,25 @@ Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture
     describe_panel(sheet, cloth, place);
     pin(pins, cloth, file);
     return cloth;
+}
+
+void add_pin_motions(Cloth& sheet, const std::vector<PinMotionScene>& motions, const std::string& file)
+{
+    std::set<int> held(sheet.pinned.begin(), sheet.pinned.end());
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+        const PinMotionScene& motion = motions[k];
+        const std::set<int> group =
+            group_vertices(motion.group, sheet, {file, 0, 0, "pins.motion[" + std::to_string(k) + "].group"});
+        held.insert(group.begin(), group.end());
+        sheet.pin_motions.push_back({{group.begin(), group.end()},
+                                     motion.start,
+                                     motion.end,
+                                     motion.velocity,
+                                     motion.turns == 0 ? Vec3(Vec3::UnitZ()) : Vec3(motion.axis.normalized()),
+                                     motion.point,
+                                     motion.turns});
+    }
+    sheet.pinned.assign(held.begin(), held.end());
 }
 
 }  // namespace selvage

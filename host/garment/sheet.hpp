@@ -23,4 +23,7 @@ Cloth make_sheet(const SheetScene& sheet, const PinsScene& pins, const std::stri
 Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture_coordinates, const SheetScene& sheet,
                       const PinsScene& pins, const std::string& file, const std::string& key);
 
+/// Holds the groups of a sheet's vertices that move, and notes how they do.
+void add_pin_motions(Cloth& sheet, const std::vector<PinMotionScene>& motions, const std::string& file);
+
 }  // namespace selvage

@@ -21,4 +21,8 @@ public:
 /// Called when a step is done: within a step limits and anchors are fixed.
 void settle_friction(State& state, const Params& params);
 
+/// Places the anchors of vertices at rest so that friction balances, as far as its limit allows, the tangential part of
+/// state.force, in which friction itself must be zero yet. Called once, after the first settling.
+void hold_by_friction(State& state, const Params& params);
+
 }  // namespace selvage

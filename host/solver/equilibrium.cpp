@@ -51,8 +51,9 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
     return PhaseEnd::time_limit;
 }
 
-bool nearly_balanced(const EquilibriumOptions& options, const DrapeProgress& progress)
+bool nearly_balanced(const Phase& phase, const EquilibriumOptions& options, const DrapeProgress& progress)
 {
+    if (progress.time < phase.motion_end()) return false;
     return progress.residual <= options.tolerance ||
            (progress.hold <= 0 && progress.residual <= progress.switch_residual);
 }
@@ -65,6 +66,12 @@ Integrator& chosen(const EquilibriumOptions& options, Phase& phase, std::unique_
     return *own;
 }
 
+StepOptions starting_at(double time, StepOptions options)
+{
+    options.start = time;
+    return options;
+}
+
 StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
 {
     return {progress.time,     control.taken(),       control.report().iterations, control.report().linear_iterations,
@@ -75,13 +82,13 @@ StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
 PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOptions& options, DrapeProgress& progress,
                       const AfterStep& after_step)
 {
-    StepControl control(phase, integrator, options.step);
+    StepControl control(phase, integrator, starting_at(progress.time, options.step));
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = std::min(options.newton_iterations, 3);
     newton.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
     for (;;) {
-        if (nearly_balanced(options, progress)) {
+        if (nearly_balanced(phase, options, progress)) {
             const PhaseEnd end = relax(phase, options, progress, after_step);
             if (end != PhaseEnd::time_limit) return end;
             integrator.restart();
@@ -126,7 +133,7 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
                      DrapeProgress& progress, const AfterStep& after_step)
 {
     std::unique_ptr<Integrator> own;
-    StepControl control(phase, chosen(options, phase, own), options.step);
+    StepControl control(phase, chosen(options, phase, own), starting_at(progress.time, options.step));
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = options.newton_iterations;

@@ -46,18 +46,40 @@ void FabricContact::update(State& state)
     });
 }
 
+double FabricContact::longest_step(double time, double room) const
+{
+    return query_.longest_step(time, room, 0.5 * search_radius());
+}
+
+void FabricContact::place(State& state, double time)
+{
+    query_.move_to(time);
+    update(state);
+}
+
+void FabricContact::move_to(State& state, double time)
+{
+    const bool moving = query_.time() < query_.motion_end();
+    if (moving) update(state);   // a step may end beyond where it last looked
+    query_.move_to(time);
+    if (!moving || state.friction_limit.empty()) return;
+    const int vs = state.size.vertex_stride;
+    for_each_item(state.size.vertex_count, [&query = query_, &state, vs](int v) {
+        if (!(state.friction_limit[v] > 0)) return;
+        std::vector<real>& anchor = state.friction_anchor;
+        const Vec3 carried = query.carried(v, {anchor[v], anchor[vs + v], anchor[2 * vs + v]});
+        for (int c = 0; c < 3; ++c) anchor[c * vs + v] = carried[c];
+    });
+}
+
 bool FabricContact::crossed(const State& state, const std::vector<real>& from)
 {
     const int vs = state.size.vertex_stride;
     const std::vector<BodyCrossing> crossings =
         query_.crossings(from.data(), state.pos.data(), vs, state.size.vertex_count);
-    for (int v = 0; v < state.size.vertex_count; ++v) {
-        if (crossings[v].body < 0) continue;
-        double squared = 0;
-        for (int c = 0; c < 3; ++c) squared += std::pow(state.pos[c * vs + v] - from[c * vs + v], 2);
+    for (int v = 0; v < state.size.vertex_count; ++v)
         // What has just dipped below the surface is driven out again by the barrier; deeper it may come out elsewhere.
-        if ((1 - crossings[v].fraction) * std::sqrt(squared) > 2 * gap_) return true;
-    }
+        if (crossings[v].body >= 0 && crossings[v].way_beyond > 2 * gap_) return true;
     return false;
 }
 

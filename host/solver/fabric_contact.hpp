@@ -23,6 +23,14 @@ public:
     double search_radius() const override { return gap_ + margin_; }
     int contact_count() const override { return contact_count_; }
 
+    double motion_end() const { return query_.motion_end(); }   ///< See BodyQuery.
+    double longest_step(double time, double room) const;        ///< In which no surface leaves what is known of it [s].
+    /// Puts the bodies where they are at a time and finds their surfaces anew.
+    void place(State& state, double time);
+    /// Moves the bodies from where they are to a time. The friction anchors of vertices in contact go along with the
+    /// surface, so friction acts against motion relative to it, and what sticks is carried.
+    void move_to(State& state, double time);
+
 private:
     BodyQuery& query_;
     std::vector<double> body_friction_;     ///< Per body; NaN: the fabric's.

@@ -1,5 +1,7 @@
 #include "host/solver/phase.hpp"
 
+#include <algorithm>
+
 #include "host/solver/cloth_state.hpp"
 #include "host/solver/springs.hpp"
 
@@ -30,7 +32,8 @@ ParticleTransfers particle_transfers(const ClothModel& model, const Topology& fi
 Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
              const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
     : options_(options), topology_(phase_topology(model, options)),
-      state_(make_state(topology_, model.cloth, model.fabrics, options.params, positions, velocities))
+      state_(make_state(topology_, model.cloth, model.fabrics, options.params, positions, velocities)),
+      pins_(model.cloth, topology_)
 {
     const bool multigrid = options.linear.preconditioner == Preconditioner::multigrid;
     const ParticleTransfers transfers =
@@ -44,6 +47,31 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
         cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, options.params.cloth_contact.gap,
                                                         particle_friction(topology_, model.cloth, model.fabrics));
     newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), cloth_contact_.get(), profile);
+    if (!contact_) return;
+    // Cloth that lies on a body from the start is held by friction in its first step already.
+    contact_->update(state_);
+    settle_friction(state_, options_.params);
+    newton_->terms().evaluate_forces(false);
+    hold_by_friction(state_, options_.params);
+}
+
+double Phase::motion_end() const { return std::max(pins_.end(), contact_ ? contact_->motion_end() : 0.0); }
+
+double Phase::longest_step(double time, double room) const
+{
+    const double pinned = pins_.longest_step(time, room, 0.5 * (options_.params.body_contact.gap + options_.contact_margin));
+    return contact_ ? contact_->longest_step(time, pinned) : pinned;
+}
+
+void Phase::place(double time)
+{
+    if (contact_) contact_->place(state_, time);
+}
+
+void Phase::move_to(double time)
+{
+    if (contact_) contact_->move_to(state_, time);
+    pins_.move_to(state_, time);
 }
 
 }  // namespace selvage

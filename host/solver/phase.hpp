@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "host/solver/fabric_contact.hpp"
+#include "host/solver/pin_paths.hpp"
 #include "host/solver/linear_solver.hpp"
 #include "host/solver/newton.hpp"
 #include "host/solver/topology.hpp"
@@ -46,6 +47,14 @@ public:
     const ContactField* contact() const { return contact_.get(); }
     ClothContact* cloth_contact() { return cloth_contact_.get(); }
     const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
+    double motion_end() const;   ///< Time after which bodies and pins stand still [s]; 0 if none moves.
+    /// The longest part of `room`, from a time on, in which bodies and pins move no further than a step may.
+    double longest_step(double time, double room) const;
+    /// Puts the bodies where they are at a time; pinned vertices are where the state says.
+    void place(double time);
+    /// Moves bodies and pinned vertices to a time; see FabricContact::move_to.
+    void move_to(double time);
+
     std::vector<Vec3> positions() const { return cloth_vectors(topology_, state_.size, state_.pos); }
     std::vector<Vec3> velocities() const { return cloth_vectors(topology_, state_.size, state_.vel); }
     std::size_t bytes() const { return state_.bytes() + linear_->bytes(); }
@@ -54,6 +63,7 @@ private:
     PhaseOptions options_;
     Topology topology_;
     State state_;
+    PinPaths pins_;
     std::unique_ptr<LinearSolver> linear_;
     std::unique_ptr<FabricContact> contact_;
     std::unique_ptr<ClothContact> cloth_contact_;

@@ -133,6 +133,14 @@ PhasePlan plan_phase(const Scene& scene, const SceneModel& model, bool sewing)
     return phase;
 }
 
+double bodies_end(const std::vector<Body>& bodies)
+{
+    double end = 0;
+    for (const Body& body : bodies)
+        if (body.motion) end = std::max(end, body.motion->end());
+    return end;
+}
+
 std::string absence(const Scene& scene, const SceneModel& model, std::string_view term)
 {
     const bool bodies = !model.model.bodies.empty();
@@ -185,9 +193,18 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
         plan.skipped.push_back({"embree", queries ? "all bodies have closed forms" : "no body is queried"});
     if (!model.sews) plan.skipped.push_back({"sew", "there are no seams"});
     if (scene.wind.velocity.isZero()) plan.skipped.push_back({"wind", "wind.velocity is zero"});
+    const double body_end = bodies_end(model.model.bodies);
+    if (!queries || body_end == 0)
+        plan.skipped.push_back({"body_motion", queries ? "no body has keyframes or a sequence" : "no body is queried"});
+    else
+        plan.active.push_back("body_motion");
+    if (model.model.cloth.pin_motions.empty())
+        plan.skipped.push_back({"pin_motion", "there is no [[pins.motion]]"});
+    else
+        plan.active.push_back("pin_motion");
 
     std::size_t body_bytes = 0;
-    for (const Body& body : model.model.bodies) body_bytes += body.mesh.faces.size() * 400;
+    for (const Body& body : model.model.bodies) body_bytes += body.mesh.faces.size() * 400 + (body.motion ? body.motion->bytes() : 0);
     for (const PhasePlan& phase : plan.phases)
         plan.peak_bytes = std::max(plan.peak_bytes, phase.field_bytes + phase.solver_bytes);
     plan.peak_bytes += model.model.cloth.positions.size() * 500 + body_bytes + (std::size_t(100) << 20);

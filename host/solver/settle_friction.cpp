@@ -1,5 +1,6 @@
 #include "host/solver/body_contact.hpp"
 #include "host/solver/launch.hpp"
+#include "kernels/stages/hold_friction.h"
 #include "kernels/stages/settle_friction.h"
 
 namespace selvage {
@@ -20,6 +21,16 @@ void settle_friction(State& state, const Params& params)
     args.limit = state.friction_limit.data();
     args.stick_distance = params.friction.stick_distance;
     launch<settle_friction_vertex>(state.size.vertex_count, args);
+}
+
+void hold_by_friction(State& state, const Params& params)
+{
+    if (state.friction_anchor.empty()) return;
+    launch<hold_friction_vertex>(state.size.vertex_count,
+                                 hold_friction_args{state.pos.data(), state.vel.data(), state.force.data(),
+                                                    state.contact_normal.data(), state.friction_limit.data(),
+                                                    state.friction_anchor.data(), params.friction.stick_distance,
+                                                    state.size.vertex_stride});
 }
 
 }  // namespace selvage

@@ -133,6 +133,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
     keep(start_);
     looked_from_ = start_.pos;
     floor_ = least_fraction * std::min(options_.longest, integrator_.stable_step());
+    if (moves_) room = phase_.longest_step(clock_, room);
     const bool gains = integrator_.may_gain_energy();
     const double kinetic = gains ? terms.kinetic_energy() : 0, potential = gains ? terms.potential_energy() : 0;
     const double span = fills ? std::min(options_.longest, room) : room;
@@ -145,11 +146,13 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
         // A limit that collapses on the way, or is no number, is that of a state that bursts.
         const bool sound = !fills || dt >= floor_ || dt >= 0.5 * (span - done);
         const bool last = !fills || span - done - dt <= 1e-9 * span;
+        if (moves_) phase_.move_to(clock_ + done + dt);
         if (!sound || !attempt(dt, options, accurate) || passed_into_body(last) ||
             (last && !keeps_energy(span, kinetic, potential))) {
             restore(start_);
             looked_from_ = start_.pos;
             done = 0;
+            if (moves_) phase_.place(clock_);
             shrink(first);
             continue;
         }
@@ -157,6 +160,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
             ++retries_;
             restore(done > 0 ? last_ : start_);
             looked_from_ = phase_.state().pos;
+            if (moves_) phase_.place(clock_ + done);
             continue;
         }
         if (!adaptive && last) dt_ = std::min(options_.longest, 1.5 * dt_);
@@ -164,6 +168,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
         shortest_ = std::min(shortest_, dt);
         if (!last) continue;
         taken_ = fills ? span : dt;
+        clock_ += taken_;
         return taken_;
     }
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -33,6 +34,7 @@ struct StepOptions {
     bool adaptive = false;        ///< Steps follow the integrator's estimate of its error, if it has one (A8).
     double error = 1e-4;          ///< Error of one step that adaptive steps allow [m].
     UnstableStep unstable = UnstableStep::shrink;
+    double start = std::numeric_limits<double>::quiet_NaN();   ///< Time of the first step [s]; NaN: nothing is moved.
 };
 
 /// Thrown where a step above the stability limit is to be refused.
@@ -48,8 +50,10 @@ class StepControl {
 public:
     /// The references must outlive this object.
     StepControl(Phase& phase, Integrator& integrator, const StepOptions& options)
-        : phase_(phase), integrator_(integrator), options_(options), dt_(options.longest)
+        : phase_(phase), integrator_(integrator), options_(options), dt_(options.longest), clock_(options.start),
+          moves_(!std::isnan(options.start) && phase.motion_end() > 0)
     {
+        if (moves_) phase_.place(clock_);
     }
 
     /// Takes one step of at most `room` seconds.
@@ -86,6 +90,8 @@ private:
     Integrator& integrator_;
     StepOptions options_;
     double dt_;
+    double clock_;                ///< At the end of the last accepted step [s].
+    bool moves_;                  ///< Bodies or pins.
     double taken_ = 0, shortest_ = 0;
     double floor_ = 0;            ///< Steps below it mean that the run has diverged [s].
     double limit_ = std::numeric_limits<double>::infinity();

@@ -19,6 +19,7 @@ const std::vector<CaseGroup>& case_groups()
         {"frequencies", "small vibrations of chains, membranes and strips", check_frequencies},
         {"buckling", "the load at which a clamped strip on edge turns over", check_buckling},
         {"integrators", "motion in time: frequencies, damping, orders and conserved quantities", check_integrators},
+        {"friction", "Coulomb friction on an incline and around a cylinder", check_friction},
         {"cusick", "Cusick's drape test: coefficients, folds and the influence of the mesh", check_cusick},
         {"doubling", "Cusick's drape test under doubled resolution", check_doubling},
     };
