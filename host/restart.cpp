@@ -105,6 +105,7 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
     checkpoint.reals["friction_anchor"] = state.friction_anchor;
     checkpoint.reals["friction_limit"] = state.friction_limit;
     checkpoint.reals["hinge_anchor"] = state.hinge_anchor;
+    if (phase.cloth_contact()) checkpoint.reals["pair_memory"] = phase.cloth_contact()->memory();
     for (const auto& [name, seconds] : p.counters.phases) checkpoint.reals["phase_" + name] = {seconds};
     const auto history = integrator.history();
     for (std::size_t k = 0; k < history.size(); ++k) checkpoint.reals[history_name(k)] = *history[k];
@@ -149,6 +150,12 @@ void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase
     take("friction_anchor", state.friction_anchor);
     take("friction_limit", state.friction_limit);
     take("hinge_anchor", state.hinge_anchor);
+    if (ClothContact* cloth = phase.cloth_contact()) {
+        const auto found = checkpoint.reals.find("pair_memory");
+        if (found == checkpoint.reals.end() || found->second.size() % ClothContact::memory_size != 0)
+            throw InputError({path, 0, 0, "pair_memory"}, "no such array, or a part of one", "whole records of contacts");
+        cloth->memory() = found->second;
+    }
     const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
     phase.params().seam.stiffness = sewing[6];
     phase.params().seam.force_limit = sewing[7];

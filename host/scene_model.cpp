@@ -138,15 +138,6 @@ void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& 
     }
 }
 
-double typical_edge(const Cloth& cloth)
-{
-    double total = 0;
-    for (const Face& f : cloth.faces)
-        for (int k = 0; k < 3; ++k)
-            total += (cloth.panel_coordinates[f[k]] - cloth.panel_coordinates[f[(k + 1) % 3]]).norm();
-    return cloth.faces.empty() ? 0.01 : total / (3 * double(cloth.faces.size()));
-}
-
 }  // namespace
 
 SceneModel build_scene_model(const Scene& scene)

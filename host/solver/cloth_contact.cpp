@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
-#include <tbb/parallel_sort.h>
-
+#include "host/collision/self_intersections.hpp"
 #include "host/solver/launch.hpp"
 
 namespace selvage {
@@ -14,76 +12,35 @@ namespace {
 
 constexpr double keep = 0.1;             // part of a pair's distance that a move leaves
 constexpr double slack_of_edge = 0.15;   // slack of the tree's boxes, of an edge length
+constexpr double body_part = 0.25;       // of the gap: where edges and corners of bodies press; before, vertices do
 constexpr int rounds = 4;                // of holding vertices back before the whole move is scaled
-constexpr double parallel_sine = 0.1;    // edges that cross at a smaller sine count less
 
 float rounded_up(double x) { return std::nextafter(float(x), std::numeric_limits<float>::infinity()); }
 float rounded_down(double x) { return std::nextafter(float(x), 0.0f); }
 
-double typical_edge(const Cloth& cloth)
+std::vector<Body> touchable(const std::vector<Body>& bodies)
 {
-    double total = 0;
-    for (const Face& f : cloth.faces) total += (cloth.panel_coordinates[f[0]] - cloth.panel_coordinates[f[1]]).norm();
-    return total / std::max<double>(1, double(cloth.faces.size()));
+    std::vector<Body> result;
+    for (const Body& body : bodies)
+        if (body.kind != Body::Kind::plane) result.push_back(body);
+    return result;
 }
 
-// Which way a corner turns tells whether an outline is convex; panels without outline edges here are sheets of a mesh.
-bool is_convex(const Cloth& cloth, const ClothPanel& panel)
+TreeSurface whole_surface(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies)
 {
-    double area = 0;
-    std::vector<Vec2> points(cloth.panel_coordinates.begin() + panel.first_vertex,
-                             cloth.panel_coordinates.begin() + panel.first_vertex + panel.vertex_count);
-    for (int f = panel.first_face; f < panel.first_face + panel.face_count; ++f) {
-        const Vec2 a = cloth.panel_coordinates[cloth.faces[f][1]] - cloth.panel_coordinates[cloth.faces[f][0]];
-        const Vec2 b = cloth.panel_coordinates[cloth.faces[f][2]] - cloth.panel_coordinates[cloth.faces[f][0]];
-        area += 0.5 * (a.x() * b.y() - a.y() * b.x());
-    }
-    // A panel is convex if it fills its convex hull.
-    std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); });
-    std::vector<Vec2> hull;
-    for (int side = 0; side < 2; ++side) {
-        const std::size_t base = hull.size();
-        for (const Vec2& p : points) {
-            const auto turns_right = [&] {
-                const Vec2 a = hull.back() - hull[hull.size() - 2], b = p - hull.back();
-                return a.x() * b.y() - a.y() * b.x() <= 0;
-            };
-            while (hull.size() >= base + 2 && turns_right()) hull.pop_back();
-            hull.push_back(p);
-        }
-        hull.pop_back();
-        std::reverse(points.begin(), points.end());
-    }
-    double hull_area = 0;
-    for (std::size_t k = 0; k < hull.size(); ++k) {
-        const Vec2 &a = hull[k], &b = hull[(k + 1) % hull.size()];
-        hull_area += 0.5 * (a.x() * b.y() - a.y() * b.x());
-    }
-    return area >= (1 - 1e-9) * hull_area;
+    TreeSurface surface = tree_surface(topology, cloth);
+    add_bodies(surface, bodies);
+    return surface;
 }
 
 }  // namespace
 
-TreeSurface tree_surface(const Topology& topology, const Cloth& cloth)
-{
-    TreeSurface surface;
-    surface.faces = topology.faces;
-    for (const Face& f : cloth.faces)
-        surface.rest.push_back({cloth.panel_coordinates[f[0]], cloth.panel_coordinates[f[1]], cloth.panel_coordinates[f[2]]});
-    for (const ClothPanel& panel : cloth.panels)
-        surface.patches.push_back({panel.first_face, panel.face_count, true, is_convex(cloth, panel)});
-    surface.group_of.resize(std::size_t(topology.particle_count));
-    std::iota(surface.group_of.begin(), surface.group_of.end(), 0);
-    // Vertices that are about to be sewn together must be free to meet.
-    const Topology joined = make_topology(cloth, true);
-    for (std::size_t v = 0; v < cloth.positions.size(); ++v)
-        surface.group_of[topology.particle_of[v]] = joined.particle_of[v];
-    return surface;
-}
-
-ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, double gap, std::vector<double> friction)
-    : gap_(gap), friction_(std::move(friction)), area_(std::size_t(topology.particle_count)),
-      tree_(tree_surface(topology, cloth), slack_of_edge * typical_edge(cloth))
+ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
+                           std::vector<double> friction)
+    : gap_(gap), body_gap_(body_part * gap), friction_(std::move(friction)), area_(std::size_t(topology.particle_count)),
+      faces_(topology.faces), bodies_(touchable(bodies)),
+      tree_(whole_surface(topology, cloth, bodies_), slack_of_edge * typical_edge(cloth)), tangled_(area_.size()),
+      inside_(area_.size())
 {
     for (std::size_t f = 0; f < cloth.faces.size(); ++f) {
         const Face& c = cloth.faces[f];
@@ -91,62 +48,115 @@ ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, double 
         const Vec2 b = cloth.panel_coordinates[c[2]] - cloth.panel_coordinates[c[0]];
         for (int particle : topology.faces[f]) area_[particle] += std::abs(a.x() * b.y() - a.y() * b.x()) / 6;
     }
+    for (const Body& body : bodies_)
+        body_now_.insert(body_now_.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
+    body_goal_ = body_now_;
 }
 
-PairCorners ClothContact::corners_at(const PairCandidate& candidate, const double* plane, int stride) const
+Vec3 ClothContact::place(int corner, const Way& way) const
 {
-    PairCorners x;
-    for (int i = 0; i < 4; ++i) {
-        const int v = candidate.corner[i];
-        x[i] = Vec3(plane[v], plane[stride + v], plane[2 * stride + v]);
-    }
-    return x;
+    if (corner < 0) return body_now_[-1 - corner];
+    return {way.pos[corner], way.pos[way.stride + corner], way.pos[2 * way.stride + corner]};
 }
 
-// How far each particle has gone since the last look and is to go now, but for what all have in common.
-void ClothContact::measure_ways(const State& state, const std::vector<real>* move)
+Vec3 ClothContact::move(int corner, const Way& way) const
+{
+    if (corner < 0) return way.body_move ? (*way.body_move)[-1 - corner] : Vec3(Vec3::Zero());
+    const std::vector<real>& u = *way.move;
+    return {u[corner], u[way.stride + corner], u[2 * way.stride + corner]};
+}
+
+PairCorners ClothContact::places(const PairCandidate& candidate, const Way& way) const
+{
+    const auto& c = candidate.corner;
+    return {place(c[0], way), place(c[1], way), place(c[2], way), place(c[3], way)};
+}
+
+PairCorners ClothContact::moves(const PairCandidate& candidate, const Way& way) const
+{
+    const auto& c = candidate.corner;
+    return {move(c[0], way), move(c[1], way), move(c[2], way), move(c[3], way)};
+}
+
+double ClothContact::gap_of(const PairCandidate& candidate) const
+{
+    if (std::min(candidate.corner[0], candidate.corner[3]) >= 0) return gap_;
+    // A vertex on a body is pressed by the body's plane already.
+    return candidate.edges || candidate.corner[0] < 0 ? body_gap_ : 0;
+}
+
+// Cloth that is on the wrong side of something has to get out again.
+bool ClothContact::may_pass(const PairCandidate& candidate) const
+{
+    const bool body = std::min(candidate.corner[0], candidate.corner[3]) < 0;
+    bool all_tangled = true, any_inside = false;
+    for (int v : candidate.corner) {
+        if (v < 0) continue;
+        all_tangled = all_tangled && tangled_[v];
+        any_inside = any_inside || inside_[v];
+    }
+    return all_tangled || (body && any_inside);
+}
+
+void ClothContact::cover(const State& state, const Way& way)
 {
     const int n = state.size.vertex_count, vs = state.size.vertex_stride;
+    if (!bodies_.empty() && !state.contact_offset.empty())
+        for_each_item(n, [&, this](int v) {
+            double along = -state.contact_offset[v];
+            for (int c = 0; c < 3; ++c) along += state.contact_normal[c * vs + v] * state.pos[c * vs + v];
+            inside_[v] = along < 0;
+        });
+    static const std::vector<Vec3> nowhere;
+    const bool afresh = tree_.cover(state.pos.data(), way.move ? way.move->data() : nullptr, vs, body_now_,
+                                    way.body_move ? *way.body_move : nowhere, gap_);
+    look_at_all(state, way, afresh);
+}
+
+// How far each corner has gone since the last look and is to go now, but for what the whole cloth has in common.
+void ClothContact::measure_ways(const Way& way)
+{
+    const int n = int(area_.size()), m = int(body_now_.size());
     const bool first = seen_.empty();
-    seen_.resize(std::size_t(n));
-    gone_.resize(std::size_t(n));
-    way_.resize(std::size_t(n));
+    for (std::vector<float>* v : {&gone_, &way_}) v->resize(std::size_t(n + m));
+    seen_.resize(std::size_t(n + m));
     const auto mean_of = [n](const auto& component) {
         Vec3 mean;
         for (int c = 0; c < 3; ++c) mean[c] = sum_items(n, [&](int v) { return component(v, c); }) / n;
         return mean;
     };
-    const Vec3 gone = first ? Vec3::Zero() : mean_of([&](int v, int c) { return state.pos[c * vs + v] - seen_[v][c]; });
-    const Vec3 ahead = move ? mean_of([&](int v, int c) { return (*move)[c * vs + v]; }) : Vec3::Zero();
-    for_each_item(n, [&, this](int v) {
-        const Vec3 x(state.pos[v], state.pos[vs + v], state.pos[2 * vs + v]);
-        gone_[v] = first ? 0 : rounded_up((x - seen_[v] - gone).norm());
-        way_[v] = move ? rounded_up((Vec3((*move)[v], (*move)[vs + v], (*move)[2 * vs + v]) - ahead).norm()) : 0;
-        seen_[v] = x;
+    const Vec3 gone = first ? Vec3(Vec3::Zero()) : mean_of([&](int v, int c) { return way.pos[c * way.stride + v] - seen_[v][c]; });
+    const Vec3 ahead = way.move ? mean_of([&](int v, int c) { return (*way.move)[c * way.stride + v]; }) : Vec3(Vec3::Zero());
+    for_each_item(n + m, [&, this](int k) {
+        const int corner = k < n ? k : n - 1 - k;
+        const Vec3 x = place(corner, way);
+        gone_[k] = first ? 0 : rounded_up((x - seen_[k] - gone).norm());
+        way_[k] = way.move ? rounded_up((move(corner, way) - ahead).norm()) : 0;
+        seen_[k] = x;
     });
 }
 
 // Measures those candidates that may be in contact on the way; of the others a bound is enough to know that they are not.
-void ClothContact::look_at_all(const State& state, const std::vector<real>* move, bool afresh)
+void ClothContact::look_at_all(const State&, const Way& way, bool afresh)
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
     looks_.resize(candidates.size());
-    measure_ways(state, move);
-    const int vs = state.size.vertex_stride;
+    measure_ways(way);
     for_each_item(int(candidates.size()), [&, this](int k) {
         const PairCandidate& candidate = candidates[k];
-        const auto& c = candidate.corner;
-        const auto both_sides = [&](const std::vector<float>& way) {
-            return candidate.edges ? std::max(way[c[0]], way[c[1]]) + std::max(way[c[2]], way[c[3]])
-                                   : way[c[0]] + std::max({way[c[1]], way[c[2]], way[c[3]]});
+        std::array<int, 4> c;
+        for (int i = 0; i < 4; ++i) c[i] = slot(candidate.corner[i]);
+        const auto both_sides = [&](const std::vector<float>& of) {
+            return candidate.edges ? std::max(of[c[0]], of[c[1]]) + std::max(of[c[2]], of[c[3]])
+                                   : of[c[0]] + std::max({of[c[1]], of[c[2]], of[c[3]]});
         };
         Look& look = looks_[k];
         look.approach = both_sides(way_);
         look.distance -= both_sides(gone_);
         look.near = afresh || look.distance - look.approach < gap_;
         if (!look.near) return;
-        look.distance = rounded_down(pair_distance(corners_at(candidate, state.pos.data(), vs), candidate.edges));
-        if (move) look.approach = rounded_up(pair_approach(corners_at(candidate, move->data(), vs), candidate.edges));
+        look.distance = rounded_down(pair_distance(places(candidate, way), candidate.edges));
+        if (way.move) look.approach = rounded_up(pair_approach(moves(candidate, way), candidate.edges));
         look.near = look.distance - look.approach < gap_;
     });
     ++counts_.looks;
@@ -154,122 +164,190 @@ void ClothContact::look_at_all(const State& state, const std::vector<real>* move
 
 void ClothContact::update(State& state)
 {
-    const bool afresh = tree_.cover(state.pos.data(), nullptr, state.size.vertex_stride, {}, {}, gap_);
-    look_at_all(state, nullptr, afresh);
+    cover(state, {state.pos, nullptr, nullptr, state.size.vertex_stride});
     list_pairs(state);
 }
 
 void ClothContact::clear_way(State& state, std::vector<real>& move, bool uniform)
 {
-    const bool afresh = tree_.cover(state.pos.data(), move.data(), state.size.vertex_stride, {}, {}, gap_);
-    look_at_all(state, &move, afresh);
-    held_.assign(std::size_t(state.size.vertex_count), 0);
-    int round = 0;
-    while (hold_back(state, move, round, uniform || round >= rounds))
-        if (uniform || round++ >= rounds) break;
-    counts_.shortened += round > 0 || uniform;
+    const Way way{state.pos, &move, nullptr, state.size.vertex_stride};
+    cover(state, way);
+    held_.assign(seen_.size(), 0);
+    bool cut = false;
+    for (int round = 0; round < rounds && !uniform && hold_back(move, way, round == 0); ++round) cut = true;
+    if (uniform || cut) {
+        const float part = scale_all(way);
+        if (part < 1) for_each_item(int(move.size()), [&move, part](int i) { move[i] *= part; });
+        cut = cut || part < 1;
+    }
+    counts_.shortened += cut;
     list_pairs(state);
 }
 
-// One round: cuts the moves of those who would hit something. Returns whether there were any.
-bool ClothContact::hold_back(const State& state, std::vector<real>& move, int round, bool uniform)
+bool ClothContact::is_clear_from(State& state, const std::vector<real>& from)
+{
+    std::vector<real> move(from.size());
+    for_each_item(int(move.size()), [&](int i) { move[i] = state.pos[i] - from[i]; });
+    const std::vector<real> end = state.pos;
+    state.pos = from;
+    const Way way{state.pos, &move, nullptr, state.size.vertex_stride};
+    cover(state, way);
+    held_.assign(seen_.size(), 0);
+    const bool clear = scale_all(way) == 1;
+    state.pos = end;
+    update(state);
+    return clear;
+}
+
+// How much of the move a candidate is free for.
+float ClothContact::free_part(PairCandidate candidate, Look& look, const Way& way, bool measured) const
+{
+    const PairCorners u = moves(candidate, way);
+    const double approach = pair_approach(u, candidate.edges);
+    const PairCorners x = places(candidate, way);
+    if (!measured) look.distance = rounded_down(pair_distance(x, candidate.edges));
+    look.approach = std::max(look.approach, rounded_up(approach));
+    look.near = look.distance - look.approach < gap_;
+    if (approach < (1 - keep) * look.distance || may_pass(candidate)) return 1;
+    const double free = free_fraction(x, u, candidate.edges, look.distance, approach, keep);
+    return free < 1 ? std::nextafter(float(free), 0.0f) : 1;
+}
+
+std::vector<float> ClothContact::free_parts(const Way& way, bool first)
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
-    const int vs = state.size.vertex_stride;
-    std::vector<float> fraction(candidates.size(), 1.0f);
+    std::vector<float> part(candidates.size(), 1.0f);
     for_each_item(int(candidates.size()), [&, this](int k) {
-        const PairCandidate& candidate = candidates[k];
         Look& look = looks_[k];
-        if (!look.near && round == 0) return;
+        const bool measured = look.near;
         // What moved along with a vertex that is held back now comes nearer to it.
-        const bool changed = round > 0 && std::any_of(candidate.corner.begin(), candidate.corner.end(),
-                                                      [this](int v) { return held_[v] != 0; });
-        if (!changed && (round > 0 || look.approach < (1 - keep) * look.distance)) return;
-        const PairCorners way = corners_at(candidate, move.data(), vs);
-        const double approach = pair_approach(way, candidate.edges);
-        if (!look.near) look.distance = rounded_down(pair_distance(corners_at(candidate, state.pos.data(), vs), candidate.edges));
-        look.approach = std::max(look.approach, rounded_up(approach));
-        look.near = look.distance - look.approach < gap_;
-        if (approach < (1 - keep) * look.distance) return;
-        const double free = free_fraction(corners_at(candidate, state.pos.data(), vs), way, candidate.edges,
-                                          look.distance, approach, keep);
-        if (free < 1) fraction[k] = std::nextafter(float(free), 0.0f);
+        const auto& c = candidates[k].corner;
+        const bool changed = std::any_of(c.begin(), c.end(), [this](int v) { return held_[slot(v)] != 0; });
+        const bool may_hit = measured && look.approach >= (1 - keep) * look.distance;
+        if (changed || (first && may_hit)) part[k] = free_part(candidates[k], look, way, measured);
     });
-    const float least = fraction.empty() ? 1.0f : *std::min_element(fraction.begin(), fraction.end());
-    if (least == 1.0f) return false;
-    if (uniform) {
-        for_each_item(int(move.size()), [&move, least](int i) { move[i] *= least; });
-        return true;
-    }
-    std::vector<float> part(std::size_t(state.size.vertex_count), 1.0f);
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-        if (fraction[k] < 1)
-            for (int v : candidates[k].corner) part[v] = std::min(part[v], fraction[k]);
-    for_each_item(state.size.vertex_count, [&](int v) {
-        if (part[v] == 1.0f) return;
-        held_[v] = 1;
-        for (int c = 0; c < 3; ++c) move[c * vs + v] *= part[v];
-    });
-    return true;
+    return part;
 }
 
-double ClothContact::area_of(const State& state, const PairCandidate& candidate) const
+// The part of the whole move that nothing stands in the way of.
+float ClothContact::scale_all(const Way& way)
 {
-    const auto area = [&](int i) { return area_[candidate.corner[i]]; };
-    if (!candidate.edges) return 0.5 * area(0);
-    // The closest points of edges jump where these are parallel: there the pairs of vertices and faces serve.
-    const PairCorners x = corners_at(candidate, state.pos.data(), state.size.vertex_stride);
-    const Vec3 a = x[1] - x[0], b = x[3] - x[2];
-    const double s = a.cross(b).squaredNorm() / (a.squaredNorm() * b.squaredNorm() * parallel_sine * parallel_sine);
-    return (area(0) + area(1) + area(2) + area(3)) / 24 * (s < 1 ? s * (2 - s) : 1);
+    const std::vector<float> part = free_parts(way, true);
+    return part.empty() ? 1.0f : *std::min_element(part.begin(), part.end());
 }
 
-// Writes those candidates that are in contact, or may come to be on the way, to the state; in an order that depends on
-// nothing but themselves.
-void ClothContact::list_pairs(State& state)
+// One round: cuts the moves of those who would hit something. Returns whether there were any.
+bool ClothContact::hold_back(std::vector<real>& move, const Way& way, bool first)
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
-    listed_.clear();
-    for (int k = 0; k < int(candidates.size()); ++k)
-        if (looks_[k].near) listed_.push_back(k);
-    tbb::parallel_sort(listed_.begin(), listed_.end(), [&](int a, int b) {
-        const PairCandidate &p = candidates[a], &q = candidates[b];
-        return p.edges != q.edges ? p.edges < q.edges : p.corner < q.corner;
+    const std::vector<float> part = free_parts(way, first);
+    std::vector<float> of_vertex(area_.size(), 1.0f);
+    bool any = false;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        if (part[k] == 1) continue;
+        any = true;
+        for (int v : candidates[k].corner)
+            if (v >= 0) of_vertex[v] = std::min(of_vertex[v], part[k]);
+    }
+    for_each_item(int(area_.size()), [&](int v) {
+        if (of_vertex[v] == 1) return;
+        held_[v] = 1;
+        for (int c = 0; c < 3; ++c) move[c * way.stride + v] *= of_vertex[v];
     });
-    const int count = int(listed_.size()), n = state.size.vertex_count, vs = state.size.vertex_stride;
-    state.set_pairs(count);
-    const int ps = state.size.pair_stride;
-    for_each_item(count, [&, this](int p) {
-        const PairCandidate& candidate = candidates[listed_[p]];
-        for (int i = 0; i < 4; ++i) state.pair_vertex[i * ps + p] = candidate.corner[i];
-        state.pair_edges[p] = candidate.edges;
-        state.pair_area[p] = area_of(state, candidate);
-    });
-    std::vector<int> begin(std::size_t(n) + 1);
-    for (int p = 0; p < count; ++p)
-        for (int v : candidates[listed_[p]].corner) ++begin[v + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    for_each_item(n, [&](int v) {
-        state.pair_slots[v] = begin[v];
-        state.pair_slots[vs + v] = begin[v + 1];
-    });
-    for (int p = 0; p < count; ++p)
-        for (int i = 0; i < 4; ++i) state.pair_slot[begin[candidates[listed_[p]].corner[i]]++] = 4 * p + i;
-    recall(state);
+    return any;
 }
 
-void ClothContact::recall(State& state)
+void ClothContact::begin(State& state)
 {
-    if (state.pair_limit.empty()) return;
-    std::fill(state.pair_limit.begin(), state.pair_limit.end(), 0);
+    state.set_body_points(int(body_now_.size()));
+    find_tangles(state);
+    show_bodies(state);
 }
 
-void ClothContact::settle(State&, const Params&) {}
+void ClothContact::find_tangles(const State& state)
+{
+    const int n = state.size.vertex_count, vs = state.size.vertex_stride;
+    std::vector<Vec3> x(static_cast<std::size_t>(n));
+    for (int v = 0; v < n; ++v) x[v] = {state.pos[v], state.pos[vs + v], state.pos[2 * vs + v]};
+    std::fill(tangled_.begin(), tangled_.end(), 0);
+    const auto mark = [this](int face) {
+        for (int v : faces_[face]) tangled_[v] = 1;
+    };
+    counts_.tangles = 0;
+    for (const auto& [a, b] : self_intersections(x, faces_)) {
+        mark(a);
+        mark(b);
+        ++counts_.tangles;
+    }
+    std::size_t first = 0;
+    for (const Body& body : bodies_) {
+        TriangleMesh mesh = body.mesh;
+        std::copy_n(body_now_.begin() + std::ptrdiff_t(first), mesh.vertices.size(), mesh.vertices.begin());
+        first += mesh.vertices.size();
+        for (const auto& [a, b] : mutual_intersections(x, faces_, mesh)) {
+            mark(a);
+            ++counts_.tangles;
+        }
+    }
+}
+
+void ClothContact::aim(const std::vector<std::pair<int, Vec3>>& pins, double time)
+{
+    pins_ = pins;
+    std::size_t first = 0;
+    for (const Body& body : bodies_) {
+        if (body.motion) {
+            const std::vector<Vec3> vertices = body_mesh_at(body, time).vertices;
+            std::copy(vertices.begin(), vertices.end(), body_goal_.begin() + std::ptrdiff_t(first));
+        }
+        first += body.mesh.vertices.size();
+    }
+    pending_ = true;
+}
+
+void ClothContact::place_bodies(State& state, double time)
+{
+    aim({}, time);
+    pending_ = false;
+    body_now_ = body_goal_;
+    show_bodies(state);
+}
+
+bool ClothContact::advance_held(State& state)
+{
+    if (!pending_) return false;
+    const int vs = state.size.vertex_stride;
+    std::vector<real> move(state.pos.size());
+    for (const auto& [particle, goal] : pins_)
+        for (int c = 0; c < 3; ++c) move[c * vs + particle] = goal[c] - state.pos[c * vs + particle];
+    std::vector<Vec3> body_move(body_now_.size());
+    for (std::size_t k = 0; k < body_now_.size(); ++k) body_move[k] = body_goal_[k] - body_now_[k];
+    const Way way{state.pos, &move, &body_move, vs};
+    cover(state, way);
+    held_.assign(seen_.size(), 0);
+    const float part = scale_all(way);
+    for (const auto& [particle, goal] : pins_)
+        for (int c = 0; c < 3; ++c)
+            state.pos[c * vs + particle] = part == 1 ? goal[c] : state.pos[c * vs + particle] + part * move[c * vs + particle];
+    for (std::size_t k = 0; k < body_now_.size(); ++k)
+        body_now_[k] = part == 1 ? body_goal_[k] : Vec3(body_now_[k] + part * body_move[k]);
+    pending_ = part < 1;
+    show_bodies(state);
+    update(state);
+    return pending_;
+}
+
+void ClothContact::show_bodies(State& state) const
+{
+    if (state.body_point.empty()) return;
+    for (std::size_t k = 0; k < body_now_.size(); ++k)
+        for (int c = 0; c < 3; ++c) state.body_point[c * std::size_t(state.size.body_point_stride) + k] = body_now_[k][c];
+}
 
 std::size_t ClothContact::bytes() const
 {
     return tree_.bytes() + looks_.capacity() * sizeof(Look) + listed_.capacity() * sizeof(int) + area_.size() * 8 +
-           memory_.capacity() * sizeof(real);
+           (memory_.capacity() + 6 * body_now_.size() + 3 * seen_.size()) * sizeof(real);
 }
 
 }  // namespace selvage

@@ -1,6 +1,9 @@
 #pragma once
+#include <array>
+#include <utility>
 #include <vector>
 
+#include "host/collision/body_shapes.hpp"
 #include "host/collision/ccd.hpp"
 #include "host/collision/cloth_tree.hpp"
 #include "host/solver/params.hpp"
@@ -13,15 +16,28 @@ namespace selvage {
 struct ClothContactCounts {
     long long looks = 0;            ///< Times that pairs were looked for.
     long long shortened = 0;        ///< Moves that were cut since something would have been passed through.
+    int tangles = 0;                ///< Pairs of triangles that intersect and may pass through each other.
 };
 
-/// Contact of the cloth with itself: keeps the pairs in the state's fields up to date and every move free of
-/// crossings. Cloth that starts free of intersections stays so: whatever moves the cloth asks `clear_way` first.
+/// Contact of the cloth with itself, and of its faces and edges with bodies: keeps the pairs in the state's fields up to
+/// date and every move free of crossings. Cloth that starts free of intersections stays so, since whatever moves the
+/// cloth, the bodies or held vertices asks here first. Vertices on bodies are FabricContact's; here their ways are
+/// checked as well.
+///
+/// Cloth that starts with intersections is tangled: triangles that intersect may pass through each other and through
+/// bodies until they are apart; then they are as the others.
 class ClothContact {
 public:
+    static constexpr int memory_size = 16;   ///< Numbers per pair in memory().
+
+    /// @param bodies    those that can be touched; planes are left out: no edge crosses one that its ends do not cross
     /// @param gap       distance at which contact sets in [m]
-    /// @param friction  per particle [1]; empty: none
-    ClothContact(const Topology& topology, const Cloth& cloth, double gap, std::vector<double> friction);
+    /// @param friction  per particle [1]
+    ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
+                 std::vector<double> friction);
+
+    /// Looks for intersections that are there at the start.
+    void begin(State& state);
 
     /// Lists the pairs that are in contact at state.pos.
     void update(State& state);
@@ -32,10 +48,21 @@ public:
     /// @param uniform  true: the whole move is scaled; false: only the vertices around what would be hit are held back
     void clear_way(State& state, std::vector<real>& move, bool uniform);
 
-    /// Ends a step for friction: bristles slip, limits follow the normal forces.
+    /// Returns true if nothing is passed through on the straight ways from `from` (planes like pos) to state.pos.
+    bool is_clear_from(State& state, const std::vector<real>& from);
+
+    /// Sets where bodies and held particles are to be at the end of a step. @param pins  particle and place [m]
+    void aim(const std::vector<std::pair<int, Vec3>>& pins, double time);
+    /// Moves them on as far as the cloth makes way. @returns true if they are not there yet
+    bool advance_held(State& state);
+    bool held_up() const { return pending_; }
+    /// Puts bodies where they are at a time, at the start or when a step is given up.
+    void place_bodies(State& state, double time);
+
+    /// Ends a step for friction: bristles slip, limits follow the normal forces. Tangles that have come apart are noticed.
     void settle(State& state, const Params& params);
 
-    /// The bristles of friction, for retries and checkpoints: thirteen numbers per pair.
+    /// The bristles of friction, for retries and checkpoints.
     std::vector<real>& memory() { return memory_; }
     const std::vector<real>& memory() const { return memory_; }
 
@@ -50,22 +77,49 @@ private:
         float approach = 0;          // an upper bound, likewise [m]
         bool near = false;           // it may matter on this way
     };
+    struct Way {                     // what is about to move, and where from
+        const std::vector<real>& pos;
+        const std::vector<real>* move = nullptr;         // null: nothing
+        const std::vector<Vec3>* body_move = nullptr;
+        int stride = 0;
+    };
 
-    PairCorners corners_at(const PairCandidate& candidate, const double* plane, int stride) const;
-    void look_at_all(const State& state, const std::vector<real>* move, bool afresh);
-    void measure_ways(const State& state, const std::vector<real>* move);
-    bool hold_back(const State& state, std::vector<real>& move, int round, bool uniform);
+    Vec3 place(int corner, const Way& way) const;
+    Vec3 move(int corner, const Way& way) const;
+    PairCorners places(const PairCandidate& candidate, const Way& way) const;
+    PairCorners moves(const PairCandidate& candidate, const Way& way) const;
+    int slot(int corner) const { return corner >= 0 ? corner : int(area_.size()) - 1 - corner; }
+    double gap_of(const PairCandidate& candidate) const;
+    bool may_pass(const PairCandidate& candidate) const;
+
+    void cover(const State& state, const Way& way);
+    void measure_ways(const Way& way);
+    void look_at_all(const State& state, const Way& way, bool afresh);
+    float free_part(PairCandidate candidate, Look& look, const Way& way, bool measured) const;
+    std::vector<float> free_parts(const Way& way, bool first);
+    float scale_all(const Way& way);
+    bool hold_back(std::vector<real>& move, const Way& way, bool first);
     void list_pairs(State& state);
-    void recall(State& state);
-    double area_of(const State& state, const PairCandidate& candidate) const;
+    void list_slots(State& state) const;
+    void recall(State& state) const;
+    void remember(const State& state);
+    double area_of(const PairCandidate& candidate, const Way& way) const;
+    void find_tangles(const State& state);
+    void show_bodies(State& state) const;
 
-    double gap_;
+    double gap_, body_gap_;
     std::vector<double> friction_, area_;          // per particle
+    std::vector<Face> faces_;                      // of particles
+    std::vector<Body> bodies_;                     // those in the tree
+    std::vector<Vec3> body_now_, body_goal_;       // corners of all of them [m]
+    std::vector<std::pair<int, Vec3>> pins_;       // where held particles are to be
+    bool pending_ = false;                         // bodies or pins are not where they are to be
     ClothTree tree_;
     std::vector<Look> looks_;                      // per candidate
-    std::vector<Vec3> seen_;                       // per particle: where it was at the last look [m]
-    std::vector<float> gone_, way_;                // per particle: how far it has gone since, and is to go [m]
-    std::vector<char> held_;                       // per particle: held back in the last move
+    std::vector<Vec3> seen_;                       // per corner: where it was at the last look [m]
+    std::vector<float> gone_, way_;                // per corner: how far it has gone since, and is to go [m]
+    std::vector<char> held_;                       // per corner: held back in the last move
+    std::vector<char> tangled_, inside_;           // per particle
     std::vector<int> listed_;                      // candidates that are pairs now, in the pairs' order
     std::vector<real> memory_;
     ClothContactCounts counts_;
@@ -73,5 +127,11 @@ private:
 
 /// The surface of a cloth that a tree is built over, in the numbering of the topology's particles.
 TreeSurface tree_surface(const Topology& topology, const Cloth& cloth);
+
+/// Adds the surfaces of bodies to it.
+void add_bodies(TreeSurface& surface, const std::vector<Body>& bodies);
+
+/// Mean length of the first edges of all faces [m].
+double typical_edge(const Cloth& cloth);
 
 }  // namespace selvage

@@ -13,13 +13,21 @@ constexpr int steps_between = 8;    // motion after a static attempt that did no
 
 // What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
 struct SavedShape {
-    std::vector<real> pos, vel, anchor, limit, hinge_anchor;
+    std::vector<real> pos, vel, anchor, limit, hinge_anchor, pairs;
 };
 
-SavedShape shape_of(const State& s) { return {s.pos, s.vel, s.friction_anchor, s.friction_limit, s.hinge_anchor}; }
-
-void restore(State& state, const SavedShape& saved)
+SavedShape shape_of(const Phase& phase)
 {
+    const State& s = phase.state();
+    const ClothContact* cloth = phase.cloth_contact();
+    return {s.pos, s.vel, s.friction_anchor, s.friction_limit, s.hinge_anchor,
+            cloth ? cloth->memory() : std::vector<real>{}};
+}
+
+void restore(Phase& phase, const SavedShape& saved)
+{
+    State& state = phase.state();
+    if (phase.cloth_contact()) phase.cloth_contact()->memory() = saved.pairs;
     state.pos = saved.pos;
     state.vel = saved.vel;
     state.friction_anchor = saved.anchor;
@@ -35,12 +43,12 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
     newton.tolerance = options.tolerance;
     newton.linear_tolerance = 0.02;
     newton.full_stiffness = true;
-    const SavedShape start = shape_of(phase.state());
+    const SavedShape start = shape_of(phase);
     double best = 1e300;
     for (int chunk = 0; chunk < relax_chunks; ++chunk) {
         const NewtonReport report = phase.newton().relax(newton);
         if (!after_step({progress.time, 0, report.iterations, report.linear_iterations, report.residual})) {
-            restore(phase.state(), start);
+            restore(phase, start);
             return PhaseEnd::stopped;
         }
         if (report.converged) return PhaseEnd::reached;

@@ -10,6 +10,8 @@
 namespace selvage {
 namespace {
 
+constexpr int most_held_up = 60;   // iterations while bodies or pins wait for the cloth to make way
+
 // Sum over vertices of the product of two fields with three components.
 double dot3(const State& state, const std::vector<real>& a, const std::vector<real>& b)
 {
@@ -123,9 +125,13 @@ void Newton::scale_to_longest(const NewtonOptions& options)
 void Newton::place(double fraction)
 {
     const double inverse_span = inertia_ > 0 ? 1 / span_ : 0;
-    for_each_item(int(state_.pos.size()), [=, this](int i) {
-        state_.pos[i] = base_[i] + fraction * direction_[i];
-        state_.vel[i] = inverse_span * (state_.pos[i] - origin_[i]);
+    const int vs = state_.size.vertex_stride;
+    for_each_item(state_.size.vertex_count, [=, this](int v) {
+        if (state_.inv_mass[v] == 0) return;
+        for (int i = v; i < 3 * vs; i += vs) {
+            state_.pos[i] = base_[i] + fraction * direction_[i];
+            state_.vel[i] = inverse_span * (state_.pos[i] - origin_[i]);
+        }
     });
 }
 
@@ -142,7 +148,9 @@ void Newton::guess_step(const NewtonOptions& options)
 {
     if (contact_) contact_->update(state_);
     base_ = start_;
-    for_each_item(int(start_.size()), [this](int i) { direction_[i] = target_[i] - start_[i]; });
+    for_each_item(int(start_.size()), [this, vs = state_.size.vertex_stride](int i) {
+        direction_[i] = state_.inv_mass[i % vs] == 0 ? 0 : target_[i] - start_[i];
+    });
     if (contact_) keep_outside_bodies();
     if (cloth_) {
         scale_to_longest(options);
@@ -206,18 +214,20 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
     double gained = 0;
     for (;; ++report.iterations) {
         if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
-        if (settle_each) settle_anchors(state_, params_);
+        const bool held_up = cloth_ && cloth_->advance_held(state_);
+        if (settle_each) settle();
         evaluate_gradient();
         report.residual = gradient_norm() / force_scale_;
-        report.converged = report.residual <= options.tolerance;
-        if (report.converged || report.iterations == options.max_iterations) return report;
+        report.converged = !held_up && report.residual <= options.tolerance;
+        const int most = held_up ? std::max(options.max_iterations, most_held_up) : options.max_iterations;
+        if (report.converged || report.iterations >= most) return report;
         const double slope = search_direction(options, report);
         // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the force.
-        report.converged = largest_move() <= options.still * span_ ||
-                           -slope <= options.decrement * (gained + terms_.kinetic_energy());
+        report.converged = !held_up && (largest_move() <= options.still * span_ ||
+                                        -slope <= options.decrement * (gained + terms_.kinetic_energy()));
         gained -= 0.5 * slope;
         report.stuck = !std::isfinite(slope) || !search_line(slope, options);
-        if (report.stuck || report.converged) return report;
+        if ((report.stuck && !held_up) || report.converged) return report;
     }
 }
 
@@ -240,8 +250,14 @@ NewtonReport Newton::step(double dt, const NewtonOptions& options)
     base_ = state_.pos;
     for_each_item(int(base_.size()), [this, dt](int i) { direction_[i] = base_[i] + dt * state_.vel[i]; });
     const NewtonReport report = minimise(dt, base_, direction_, options);
-    settle_anchors(state_, params_);
+    settle();
     return report;
+}
+
+void Newton::settle()
+{
+    settle_anchors(state_, params_);
+    if (cloth_) cloth_->settle(state_, params_);
 }
 
 NewtonReport Newton::relax(const NewtonOptions& options)

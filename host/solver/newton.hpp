@@ -48,8 +48,13 @@ public:
                           const NewtonOptions& options);
     /// One implicit Euler step: state.pos and state.vel move from t to t + dt. @param dt [s], > 0
     NewtonReport step(double dt, const NewtonOptions& options);
+    /// Ends a step for all that slips: anchors on bodies, in hinges and between cloth and cloth.
+    void settle();
     /// Iterations on the static energy; state.vel becomes zero, anchors settle after each.
     NewtonReport relax(const NewtonOptions& options);
+
+    /// Lists the pairs of cloth in contact: whoever evaluates forces elsewhere than on a way of Newton's must ask for it.
+    void list_pairs();
 
     /// Norm of the net conservative force on free vertices over that of gravity (or of `force_scale` if larger) [1].
     double static_residual();
@@ -72,7 +77,6 @@ private:
     double longest_fraction(const NewtonOptions& options) const;
     void place(double fraction);
     void keep_outside_bodies();
-    void list_pairs();
     void clear_way(bool uniform);
     void scale_to_longest(const NewtonOptions& options);
     void guess_step(const NewtonOptions& options);

@@ -44,12 +44,15 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
         contact_ = std::make_unique<FabricContact>(*query, model.bodies, topology_, model.cloth, model.fabrics,
                                                    options.params.body_contact.gap, options.contact_margin);
     if (options.params.cloth_contact.stiffness > 0)
-        cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, options.params.cloth_contact.gap,
+        cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, query ? model.bodies : std::vector<Body>{},
+                                                        options.params.cloth_contact.gap,
                                                         particle_friction(topology_, model.cloth, model.fabrics));
     newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), cloth_contact_.get(), profile);
+    if (cloth_contact_) cloth_contact_->begin(state_);
     if (!contact_) return;
     // Cloth that lies on a body from the start is held by friction in its first step already.
     contact_->update(state_);
+    newton_->list_pairs();
     settle_friction(state_, options_.params);
     newton_->terms().evaluate_forces(false);
     hold_by_friction(state_, options_.params);
@@ -66,12 +69,16 @@ double Phase::longest_step(double time, double room) const
 void Phase::place(double time)
 {
     if (contact_) contact_->place(state_, time);
+    if (cloth_contact_) cloth_contact_->place_bodies(state_, time);
 }
 
 void Phase::move_to(double time)
 {
     if (contact_) contact_->move_to(state_, time);
-    pins_.move_to(state_, time);
+    if (cloth_contact_)
+        cloth_contact_->aim(pins_.places(time), time);
+    else
+        pins_.move_to(state_, time);
 }
 
 }  // namespace selvage

@@ -57,6 +57,13 @@ double PinPaths::longest_step(double time, double room, double way) const
     return dt;
 }
 
+std::vector<std::pair<int, Vec3>> PinPaths::places(double time) const
+{
+    std::vector<std::pair<int, Vec3>> result;
+    for (const Pin& pin : pins_) result.push_back({pin.particle, position(pin, time)});
+    return result;
+}
+
 void PinPaths::move_to(State& state, double time) const
 {
     const int vs = state.size.vertex_stride;

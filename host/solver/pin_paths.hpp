@@ -18,6 +18,8 @@ public:
     /// Puts them where they are at a time. They have no velocity in the state, which keeps what integrators derive
     /// from it where it is: their place is given, not found.
     void move_to(State& state, double time) const;
+    /// Where they are at a time, by particle [m].
+    std::vector<std::pair<int, Vec3>> places(double time) const;
 
 private:
     struct Pin {

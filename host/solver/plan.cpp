@@ -90,6 +90,7 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
     if (scene.contact.self) {
         params.cloth_contact.stiffness = contact_stiffness(scene, model);
         params.cloth_contact.gap = cloth_gap(scene, model);
+        params.cloth_friction.scale = !sewing && any_fabric(model, &Fabric::friction) ? 1 : 0;
     }
     if (model.model.bodies.empty() || !scene.contact.body) return params;
     params.body_contact.stiffness = contact_stiffness(scene, model);

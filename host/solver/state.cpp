@@ -35,6 +35,13 @@ void State::set_pairs(int count)
 #include "kernels/fields.def"
 }
 
+void State::set_body_points(int count)
+{
+    size.body_point_count = count;
+    size.body_point_stride = padded_stride(count);
+    body_point.resize(3 * std::size_t(size.body_point_stride));
+}
+
 std::size_t State::bytes() const
 {
     std::size_t total = 0;

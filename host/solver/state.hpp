@@ -43,6 +43,8 @@ struct State {
     State(const mesh_sizes& sizes, const FieldSet& wanted);  ///< Zero-fills the wanted fields.
     /// Makes room for so many pairs in contact; the contents of their fields are lost. Memory only ever grows.
     void set_pairs(int count);
+    /// Makes room for the corners of bodies that pairs refer to.
+    void set_body_points(int count);
     std::size_t bytes() const;                               ///< Memory held by all fields.
 };
 

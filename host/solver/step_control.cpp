@@ -31,6 +31,7 @@ void StepControl::keep(Saved& saved)
     saved.anchor = state.friction_anchor;
     saved.limit = state.friction_limit;
     saved.hinge_anchor = state.hinge_anchor;
+    if (phase_.cloth_contact()) saved.pairs = phase_.cloth_contact()->memory();
     const auto arrays = integrator_.history();
     saved.history.resize(arrays.size());
     for (std::size_t k = 0; k < arrays.size(); ++k) saved.history[k] = *arrays[k];
@@ -44,6 +45,7 @@ void StepControl::restore(const Saved& saved)
     state.friction_anchor = saved.anchor;
     state.friction_limit = saved.limit;
     state.hinge_anchor = saved.hinge_anchor;
+    if (phase_.cloth_contact()) phase_.cloth_contact()->memory() = saved.pairs;
     const auto arrays = integrator_.history();
     for (std::size_t k = 0; k < arrays.size(); ++k) *arrays[k] = saved.history[k];
 }
@@ -59,10 +61,21 @@ double StepControl::next_step(double left)
     return left / std::ceil(left / std::min(dt_, margin * limit_) - 1e-9);
 }
 
+// Bodies and pins must have come where the step ends. Newton's moves are cleared one by one; schemes that place the
+// cloth without it are looked at as a whole.
+bool StepControl::cloth_is_clear()
+{
+    ClothContact* cloth = phase_.cloth_contact();
+    if (!cloth) return true;
+    if (cloth->held_up()) return false;
+    return !integrator_.may_gain_energy() || cloth->is_clear_from(phase_.state(), start_.pos);
+}
+
 bool StepControl::attempt(double dt, const NewtonOptions& options, bool accurate)
 {
     report_ = integrator_.step(dt, options);
     if (!std::isfinite(report_.residual) || !is_finite(phase_.state())) return false;
+    if (!cloth_is_clear()) return false;
     if (report_.stuck && report_.iterations == 0 && report_.residual > 10 * options.tolerance) return false;
     return !accurate || report_.converged || report_.stuck;
 }

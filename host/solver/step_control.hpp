@@ -73,7 +73,7 @@ public:
 
 private:
     struct Saved {
-        std::vector<real> pos, vel, anchor, limit, hinge_anchor;
+        std::vector<real> pos, vel, anchor, limit, hinge_anchor, pairs;
         std::vector<std::vector<real>> history;
     };
 
@@ -81,6 +81,7 @@ private:
     void restore(const Saved& saved);
     double next_step(double left);
     bool attempt(double dt, const NewtonOptions& options, bool accurate);
+    bool cloth_is_clear();
     bool too_inaccurate(double dt);
     bool passed_into_body(bool last);
     bool keeps_energy(double span, double kinetic_before, double potential_before);

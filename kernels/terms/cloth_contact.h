@@ -2,7 +2,7 @@
 // of two edges.
 //     r = sum_i w_i x_i  [m]   from the closest point of the second side to that of the first;   d = |r|,  n = r / d
 //     E = A P g b(d / g)  [J]       f_i = -w_i A P b'(d / g) n  [N]       K = A P b''(d / g) / g n n^T  [N/m]
-// g the distance at which contact sets in, P a pressure, A the pair's area, b of barrier.h. A corner below zero is a
+// g the pair's distance at which contact sets in, P a pressure, A the pair's area, b of barrier.h. A corner below zero is a
 // body's: it stands at body_point[-1 - corner] and takes no force.
 // Source: Li and others 2021 (C-IPC), with distances in place of their squares. K leaves out how n turns: what it leaves
 // out is negative, since f pushes, so that K is the projected stiffness at once.
@@ -13,10 +13,10 @@
 
 #define cloth_contact_PARAMS(STRENGTH, PARAM)                                                      \
     STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the barrier, P")                             \
-    PARAM(gap, 0.002, "m", "distance at which contact sets in, g")
+    PARAM(gap, 0.002, "m", "distance at which contact of cloth with cloth sets in")
 #define cloth_contact_FIELDS(READ, ADD)                                                            \
-    READ(pos) READ(body_point) READ(pair_vertex) READ(pair_edges) READ(pair_area) ADD(pair_weight) \
-    ADD(pair_normal) ADD(pair_distance) ADD(pair_force) ADD(pair_stiffness) ADD(vertex_stiffness)
+    READ(pos) READ(body_point) READ(pair_vertex) READ(pair_edges) READ(pair_area) READ(pair_gap)   \
+    ADD(pair_weight) ADD(pair_normal) ADD(pair_distance) ADD(pair_force) ADD(pair_stiffness) ADD(vertex_stiffness)
 TERM_ARGS(cloth_contact)
 
 KERNEL_FN vec3 pair_corner(int corner, int pair, const cloth_contact_args* a)
@@ -42,13 +42,14 @@ KERNEL_FN void pair_frame(int pair, const cloth_contact_args* a)
 
 KERNEL_FN real cloth_contact_energy(int pair, const cloth_contact_args* a)
 {
-    return a->pair_area[pair] * a->stiffness * a->gap * barrier_at(a->pair_distance[pair] / a->gap).value;
+    real g = a->pair_gap[pair];
+    return a->pair_area[pair] * a->stiffness * g * barrier_at(a->pair_distance[pair] / g).value;
 }
 
 // How hard the two sides push each other apart [N].
 KERNEL_FN real cloth_contact_push(int pair, const cloth_contact_args* a)
 {
-    return -a->pair_area[pair] * a->stiffness * barrier_at(a->pair_distance[pair] / a->gap).slope;
+    return -a->pair_area[pair] * a->stiffness * barrier_at(a->pair_distance[pair] / a->pair_gap[pair]).slope;
 }
 
 KERNEL_FN void cloth_contact_force(int pair, const cloth_contact_args* a)
@@ -61,6 +62,6 @@ KERNEL_FN void cloth_contact_force(int pair, const cloth_contact_args* a)
 KERNEL_FN void cloth_contact_stiffness(int pair, const cloth_contact_args* a)
 {
     vec3 n = load3(a->pair_normal, a->size.pair_stride, pair);
-    real k = a->pair_area[pair] * a->stiffness / a->gap * barrier_at(a->pair_distance[pair] / a->gap).curvature;
+    real g = a->pair_gap[pair], k = a->pair_area[pair] * a->stiffness / g * barrier_at(a->pair_distance[pair] / g).curvature;
     add_block(a->pair_stiffness, a->size.pair_stride, pair, 0, outer3(k, n, n));
 }

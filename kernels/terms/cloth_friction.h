@@ -13,7 +13,7 @@
     PARAM(stick_distance, 2e-4, "m", "elastic way before a contact slides, r")
 #define cloth_friction_FIELDS(READ, ADD)                                                           \
     READ(pos) READ(body_point) READ(pair_vertex) READ(pair_held_weight) READ(pair_held_normal)     \
-    READ(pair_bristle) READ(pair_limit) ADD(pair_force) ADD(pair_stiffness) ADD(vertex_stiffness)
+    READ(pair_bristle) READ(pair_friction) READ(pair_limit) ADD(pair_force) ADD(pair_stiffness) ADD(vertex_stiffness)
 TERM_ARGS(cloth_friction)
 
 KERNEL_FN vec3 pair_way(int pair, const cloth_friction_args* a)

@@ -3,7 +3,6 @@
 // The first step is one of the implicit midpoint rule: with implicit Euler's, fast modes show its first order for long.
 // It ends beyond what was solved for, where cloth could have met itself: with such contact it is one of implicit Euler.
 // Source: Gear 1971; Hairer, Norsett and Wanner 1993, ch. III.5 for variable steps.
-#include "host/solver/anchors.hpp"
 #include "host/solver/integrators/list.hpp"
 #include "host/solver/integrators/vector_tools.hpp"
 #include "host/solver/phase.hpp"
@@ -52,7 +51,7 @@ public:
             last_gain_[i] *= 2;
         });
         last_dt_[0] = dt;
-        settle_anchors(s, phase_.params());
+        phase_.newton().settle();
         // At first free flight is the guess, and its error a bound.
         // Later the guess errs by -(1 + w)/w dt^3 x'''/6, the step by (1 + w)^2/(w (1 + 2w)) of it (Milne's device).
         error_ = (first ? 1 : (1 + w) / (2 + 3 * w)) * largest_distance(s, s.pos, guess_);

@@ -1,6 +1,5 @@
 #include "host/solver/integrators/explicit_scheme.hpp"
 
-#include "host/solver/anchors.hpp"
 #include "host/solver/stability.hpp"
 
 namespace selvage {
@@ -14,7 +13,7 @@ constexpr int steps_in_contact = 10;   // the same where the barrier of a body m
 NewtonReport ExplicitScheme::step(double dt, const NewtonOptions&)
 {
     move(dt);
-    settle_anchors(state(), phase_.params());
+    phase_.newton().settle();
     ++watch_[1];
     watch_[3] = contacts();
     NewtonReport report;
@@ -40,6 +39,7 @@ void ExplicitScheme::accelerate(std::vector<real>& a)
     State& s = state();
     // A state that has burst is no place to look for bodies; the caller finds out.
     if (phase_.contact() && is_finite(s)) phase_.contact()->update(s);
+    if (is_finite(s)) phase_.newton().list_pairs();
     phase_.newton().terms().evaluate_forces(true);
     const int vs = s.size.vertex_stride;
     for_each_item(s.size.vertex_count, [&s, vs, to = a.data()](int v) {

@@ -1,7 +1,6 @@
 // Half a step of implicit Euler, then as far again:
 //     m (vm - v0) / (dt/2) = f(xm, vm),   xm = x0 + dt/2 vm,   x1 = 2 xm - x0,   v1 = 2 vm - v0
 // Source: Hairer, Lubich and Wanner 2006, ch. II.1.
-#include "host/solver/anchors.hpp"
 #include "host/solver/integrators/list.hpp"
 #include "host/solver/integrators/vector_tools.hpp"
 #include "host/solver/phase.hpp"
@@ -37,7 +36,7 @@ public:
             s.vel[i] += s.vel[i] - start_vel_[i];
             acceleration_[i] = (s.vel[i] - start_vel_[i]) / dt;
         });
-        settle_anchors(s, phase_.params());
+        phase_.newton().settle();
         // dt^3/12 x''', the third derivative from the middles of two steps; at first from an acceleration that set in.
         if (last_dt_[0] == 0) before_.assign(before_.size(), 0);
         error_ = dt * dt * dt / 6 / (dt + last_dt_[0]) * largest_distance(s, acceleration_, before_);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/solver/anchors.hpp"
 #include "host/solver/integrators/list.hpp"
 #include "host/solver/phase.hpp"
 
@@ -28,7 +27,7 @@ public:
         const std::vector<real> start = s.pos;
         const NewtonReport report = phase_.newton().minimise(boost * dt, start, start, options);
         std::fill(s.vel.begin(), s.vel.end(), 0);
-        settle_anchors(s, phase_.params());
+        phase_.newton().settle();
         const double residual = phase_.newton().static_residual();
         // A residual that stays, as in free flight, asks for longer steps as much as one that falls.
         const double ratio = last_residual > 0 ? last_residual / std::max(residual, 1e-300) : 1;

@@ -1,0 +1,29 @@
+// Ends a step for the friction of a pair in contact.
+//     L = mu N;   the bristle is the way w, drawn in to the stick distance, and lies across the new normal;
+//     weights and normal are held from here on. A pair that has just come into contact sticks where it is.
+// Source: see terms/cloth_friction.h.
+#pragma once
+#include "../terms/cloth_contact.h"
+#include "../terms/cloth_friction.h"
+
+typedef struct {
+    cloth_contact_args contact;                     // its frames are those of the present positions
+    cloth_friction_args friction;
+    GLOBAL real* RESTRICT held_weight;
+    GLOBAL real* RESTRICT held_normal;
+    GLOBAL real* RESTRICT bristle;
+    GLOBAL real* RESTRICT limit;
+} settle_pairs_args;
+
+KERNEL_FN void settle_pair(int pair, const settle_pairs_args* a)
+{
+    int ps = a->contact.size.pair_stride;
+    vec3 n = load3(a->contact.pair_normal, ps, pair), w = pair_way(pair, &a->friction);
+    real limit = a->friction.pair_friction[pair] * cloth_contact_push(pair, &a->contact);
+    real part = fmin(REAL(1), a->friction.stick_distance / fmax(length(w), REAL(1e-30)));
+    if (a->limit[pair] <= REAL(0) || limit <= REAL(0)) part = REAL(0);
+    store3(a->bristle, ps, pair, part * (w - dot(n, w) * n));
+    store3(a->held_normal, ps, pair, n);
+    for (int i = 0; i < 4; ++i) a->held_weight[i * ps + pair] = a->contact.pair_weight[i * ps + pair];
+    a->limit[pair] = limit;
+}
