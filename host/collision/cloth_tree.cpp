@@ -15,6 +15,7 @@ namespace selvage {
 namespace {
 
 constexpr double flat_to_skip = 0.4, flat_to_stay = 0.25;   // least s - e of a subtree that is skipped
+constexpr double slack_of_way = 0.2;                       // of a corner's move
 constexpr int grain = 512;
 constexpr std::size_t frontier = 256;                      // pieces that a search is divided into
 
@@ -72,11 +73,13 @@ double ClothTree::Gradients::stretch_bound() const
     return std::sqrt(std::max(smaller, 0.0)) - std::sqrt(squared_spread);
 }
 
-// Bounds of all ways in the moving frame, grown by the slack and half of the reach.
-void ClothTree::refit_boxes()
+// Bounds of all ways in the moving frame, grown by half of the reach and by slack: the more the further a corner goes,
+// since the next move will go elsewhere by a part of it. Bodies that stand still need no slack.
+void ClothTree::refit_boxes(bool bodies_move)
 {
-    const float grown = float(slack_ + 0.5 * reach_);
     parallel(int(start_.size()), [&](int k) {
+        const double slack = slack_ + slack_of_way * (end_[k] - start_[k]).norm();
+        const float grown = float(k < particles_ || bodies_move ? slack + 0.5 * reach_ : body_reach_ - 0.5 * reach_);
         for (int c = 0; c < 3; ++c) {
             corner_box_[k].low[c] = float(std::min(start_[k][c], end_[k][c])) - grown;
             corner_box_[k].high[c] = float(std::max(start_[k][c], end_[k][c])) + grown;
@@ -129,11 +132,10 @@ void ClothTree::refit_gradients()
 }
 
 // Without bodies the frame goes with the mean of the cloth: cloth that moves as a whole meets nothing new.
-void ClothTree::set_frame(const double* from, const double* move, int stride, const std::vector<Vec3>& bodies,
-                          const std::vector<Vec3>& body_moves)
+void ClothTree::set_frame(const double* from, const double* move, int stride, const TreeBodies& bodies)
 {
     Vec3 at = Vec3::Zero(), way = Vec3::Zero();
-    if (bodies.empty()) {
+    if (bodies.corners.empty()) {
         for (int c = 0; c < 3; ++c) {
             double sum = 0, moves = 0;
             for (int v = 0; v < particles_; ++v) {
@@ -150,18 +152,19 @@ void ClothTree::set_frame(const double* from, const double* move, int stride, co
             end_[v][c] = start_[v][c] + (move ? move[c * stride + v] - way[c] : 0);
         }
     });
-    parallel(int(bodies.size()), [&](int k) {
-        start_[particles_ + k] = bodies[k];
-        end_[particles_ + k] = body_moves.empty() ? bodies[k] : Vec3(bodies[k] + body_moves[k]);
+    if (!bodies.moves && bodies.version == body_version_) return;
+    parallel(int(bodies.corners.size()), [&](int k) {
+        start_[particles_ + k] = bodies.corners[k];
+        end_[particles_ + k] = bodies.moves ? Vec3(bodies.corners[k] + (*bodies.moves)[k]) : bodies.corners[k];
     });
 }
 
-bool ClothTree::still_complete(double reach)
+bool ClothTree::still_complete(const TreeBodies& bodies, double reach, double body_reach) const
 {
-    if (!valid_ || reach > reach_) return false;
+    if (!valid_ || reach > reach_ || body_reach > body_reach_ || bodies.moves || bodies.version != body_version_) return false;
     const float inner = float(0.5 * reach_);
-    const bool inside = tbb::parallel_reduce(
-        Range(0, int(start_.size()), 4096), true,
+    return tbb::parallel_reduce(
+        Range(0, particles_, 4096), true,
         [&](const Range& range, bool all) {
             for (int k = range.begin(); k < range.end() && all; ++k)
                 for (int c = 0; c < 3; ++c) {
@@ -171,22 +174,23 @@ bool ClothTree::still_complete(double reach)
             return all;
         },
         [](bool a, bool b) { return a && b; });
-    if (!inside) return false;
-    refit_gradients();
-    return std::all_of(skipped_.begin(), skipped_.end(), [&](int n) { return is_flat(n, flat_to_stay); });
 }
 
-bool ClothTree::cover(const double* from, const double* move, int stride, const std::vector<Vec3>& bodies,
-                      const std::vector<Vec3>& body_moves, double reach)
+bool ClothTree::cover(const double* from, const double* move, int stride, const TreeBodies& bodies, double reach,
+                      double body_reach)
 {
-    set_frame(from, move, stride, bodies, body_moves);
-    if (still_complete(reach)) {
+    set_frame(from, move, stride, bodies);
+    refit_gradients();
+    if (still_complete(bodies, reach, body_reach) &&
+        std::all_of(skipped_.begin(), skipped_.end(), [&](int n) { return is_flat(n, flat_to_stay); })) {
         ++counts_.reused;
         return false;
     }
     reach_ = reach;
-    refit_boxes();
-    refit_gradients();
+    body_reach_ = body_reach;
+    refit_boxes(bodies.moves);
+    // What has been on the way of a moving body is not what is around it when it stands still.
+    body_version_ = bodies.moves ? -1 : bodies.version;
     search();
     valid_ = true;
     return true;

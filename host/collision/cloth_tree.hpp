@@ -30,6 +30,13 @@ struct TreeSurface {
     std::vector<Vec3> body_corners;             ///< Where the bodies' corners are at first [m].
 };
 
+/// The corners of all bodies at a time.
+struct TreeBodies {
+    const std::vector<Vec3>& corners;           ///< [m]
+    const std::vector<Vec3>* moves = nullptr;   ///< Their straight way [m]; null: they stand still.
+    int version = 0;                            ///< Changes whenever the corners do.
+};
+
 struct TreeCounts {
     long long searches = 0;         ///< Traversals of the tree.
     long long reused = 0;           ///< Times that the last candidates were proved to be still complete.
@@ -57,10 +64,11 @@ public:
     /// Makes candidates complete for the straight moves from `from` to `from + move` of all particles.
     /// @param reach       distance of primitives that is of interest [m]
     /// @param from, move  planes, component c of particle v at [c * stride + v] [m]; move may be null: no move
-    /// @param bodies, body_moves  three entries per body corner [m]
+    /// @param bodies       where the bodies are
+    /// @param body_reach   the same for a primitive of the cloth and one of a body, at most reach [m]
     /// @returns true if the candidates have changed
-    bool cover(const double* from, const double* move, int stride, const std::vector<Vec3>& bodies,
-               const std::vector<Vec3>& body_moves, double reach);
+    bool cover(const double* from, const double* move, int stride, const TreeBodies& bodies, double reach,
+               double body_reach);
 
     const std::vector<PairCandidate>& candidates() const { return candidates_; }
     const TreeCounts& counts() const { return counts_; }
@@ -102,11 +110,10 @@ private:
     void build(PatchBuild& build, int first, int count, const Cell& cell);
     Cell part_of(const PatchBuild& build, const Cell& cell, const Vec2& low, const Vec2& high) const;
     void own_primitives();
-    void set_frame(const double* from, const double* move, int stride, const std::vector<Vec3>& bodies,
-                   const std::vector<Vec3>& body_moves);
-    bool still_complete(double reach);
+    void set_frame(const double* from, const double* move, int stride, const TreeBodies& bodies);
+    bool still_complete(const TreeBodies& bodies, double reach, double body_reach) const;
     void refit_gradients();
-    void refit_boxes();
+    void refit_boxes(bool bodies_move);
     void search();
     void visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
                std::vector<PairCandidate>& found) const;
@@ -132,8 +139,8 @@ private:
     std::vector<Box> corner_box_, face_box_, node_box_;
     std::vector<Gradients> face_gradients_, node_gradients_;
     std::vector<int> skipped_;                  // nodes that were taken for flat
-    double reach_ = 0;
-    Vec3 frame_ = Vec3::Zero(), frame_move_ = Vec3::Zero(), built_frame_ = Vec3::Zero();
+    double reach_ = 0, body_reach_ = 0;
+    int body_version_ = -1;
     bool valid_ = false;
     std::vector<PairCandidate> candidates_;
     TreeCounts counts_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/collision/self_intersections.hpp"
+#include "host/solver/fabric_contact.hpp"
 #include "host/solver/launch.hpp"
 
 namespace selvage {
@@ -18,11 +19,11 @@ constexpr int rounds = 4;                // of holding vertices back before the 
 float rounded_up(double x) { return std::nextafter(float(x), std::numeric_limits<float>::infinity()); }
 float rounded_down(double x) { return std::nextafter(float(x), 0.0f); }
 
-std::vector<Body> touchable(const std::vector<Body>& bodies)
+std::vector<Body> touchable(const std::vector<Body>& bodies, const Cloth& cloth, double gap)
 {
     std::vector<Body> result;
     for (const Body& body : bodies)
-        if (body.kind != Body::Kind::plane) result.push_back(body);
+        if (!clear_by_vertices(body, cloth, gap)) result.push_back(body);
     return result;
 }
 
@@ -38,7 +39,7 @@ TreeSurface whole_surface(const Topology& topology, const Cloth& cloth, const st
 ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
                            std::vector<double> friction)
     : gap_(gap), body_gap_(body_part * gap), friction_(std::move(friction)), area_(std::size_t(topology.particle_count)),
-      faces_(topology.faces), bodies_(touchable(bodies)),
+      faces_(topology.faces), bodies_(touchable(bodies, cloth, gap)),
       tree_(whole_surface(topology, cloth, bodies_), slack_of_edge * typical_edge(cloth)), tangled_(area_.size()),
       inside_(area_.size())
 {
@@ -107,9 +108,8 @@ void ClothContact::cover(const State& state, const Way& way)
             for (int c = 0; c < 3; ++c) along += state.contact_normal[c * vs + v] * state.pos[c * vs + v];
             inside_[v] = along < 0;
         });
-    static const std::vector<Vec3> nowhere;
-    const bool afresh = tree_.cover(state.pos.data(), way.move ? way.move->data() : nullptr, vs, body_now_,
-                                    way.body_move ? *way.body_move : nowhere, gap_);
+    const bool afresh = tree_.cover(state.pos.data(), way.move ? way.move->data() : nullptr, vs,
+                                    {body_now_, way.body_move, body_version_}, gap_, body_gap_);
     look_at_all(state, way, afresh);
 }
 
@@ -310,6 +310,7 @@ void ClothContact::place_bodies(State& state, double time)
     aim({}, time);
     pending_ = false;
     body_now_ = body_goal_;
+    ++body_version_;
     show_bodies(state);
 }
 
@@ -322,7 +323,8 @@ bool ClothContact::advance_held(State& state)
         for (int c = 0; c < 3; ++c) move[c * vs + particle] = goal[c] - state.pos[c * vs + particle];
     std::vector<Vec3> body_move(body_now_.size());
     for (std::size_t k = 0; k < body_now_.size(); ++k) body_move[k] = body_goal_[k] - body_now_[k];
-    const Way way{state.pos, &move, &body_move, vs};
+    const bool bodies_move = std::any_of(body_move.begin(), body_move.end(), [](const Vec3& u) { return !u.isZero(0); });
+    const Way way{state.pos, &move, bodies_move ? &body_move : nullptr, vs};
     cover(state, way);
     held_.assign(seen_.size(), 0);
     const float part = scale_all(way);
@@ -332,6 +334,7 @@ bool ClothContact::advance_held(State& state)
     for (std::size_t k = 0; k < body_now_.size(); ++k)
         body_now_[k] = part == 1 ? body_goal_[k] : Vec3(body_now_[k] + part * body_move[k]);
     pending_ = part < 1;
+    body_version_ += bodies_move;
     show_bodies(state);
     update(state);
     return pending_;

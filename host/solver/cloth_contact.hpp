@@ -30,7 +30,7 @@ class ClothContact {
 public:
     static constexpr int memory_size = 16;   ///< Numbers per pair in memory().
 
-    /// @param bodies    those that can be touched; planes are left out: no edge crosses one that its ends do not cross
+    /// @param bodies    those that can be touched; left out are those that cloth is clear of whose vertices are
     /// @param gap       distance at which contact sets in [m]
     /// @param friction  per particle [1]
     ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
@@ -113,6 +113,7 @@ private:
     std::vector<Body> bodies_;                     // those in the tree
     std::vector<Vec3> body_now_, body_goal_;       // corners of all of them [m]
     std::vector<std::pair<int, Vec3>> pins_;       // where held particles are to be
+    int body_version_ = 0;                         // changes with body_now_
     bool pending_ = false;                         // bodies or pins are not where they are to be
     ClothTree tree_;
     std::vector<Look> looks_;                      // per candidate

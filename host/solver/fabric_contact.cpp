@@ -6,6 +6,13 @@
 #include "host/solver/launch.hpp"
 
 namespace selvage {
+namespace {
+
+constexpr double stretched = 1.1;    // edges may be so much longer than at rest
+constexpr double most_sag = 0.5;     // of the contact gap
+
+}  // namespace
+
 
 std::vector<double> particle_friction(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics)
 {
@@ -20,12 +27,31 @@ std::vector<double> particle_friction(const Topology& topology, const Cloth& clo
     return result;
 }
 
+double chord_sag(const Body& body, const Cloth& cloth)
+{
+    if (body.kind != Body::Kind::sphere && body.kind != Body::Kind::capsule) return 0;
+    double longest = 0;
+    for (const Face& f : cloth.faces)
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(longest, (cloth.panel_coordinates[f[k]] - cloth.panel_coordinates[f[(k + 1) % 3]]).norm());
+    return std::pow(stretched * longest, 2) / (6 * body.radius);
+}
+
+bool clear_by_vertices(const Body& body, const Cloth& cloth, double gap)
+{
+    if (body.kind == Body::Kind::plane) return true;
+    return body.kind != Body::Kind::mesh && !body.motion && chord_sag(body, cloth) <= most_sag * gap;
+}
+
 FabricContact::FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology,
                              const Cloth& cloth, const FabricTable& fabrics, double gap, double margin)
     : query_(query), fabric_friction_(particle_friction(topology, cloth, fabrics)),
       body_of_vertex_(std::size_t(topology.particle_count), -1), gap_(gap), margin_(margin)
 {
-    for (const Body& body : bodies) body_friction_.push_back(body.friction);
+    for (const Body& body : bodies) {
+        body_friction_.push_back(body.friction);
+        body_sag_.push_back(std::min(chord_sag(body, cloth), most_sag * gap));
+    }
 }
 
 void FabricContact::update(State& state)
@@ -33,6 +59,9 @@ void FabricContact::update(State& state)
     const int count = state.size.vertex_count, vs = state.size.vertex_stride;
     query_.nearest(state.pos.data(), vs, count, search_radius(),
                    {vs, state.contact_normal.data(), state.contact_offset.data(), body_of_vertex_.data()});
+    for_each_item(count, [this, &state](int v) {
+        if (body_of_vertex_[v] >= 0) state.contact_offset[v] += body_sag_[body_of_vertex_[v]];
+    });
     contact_count_ = int(sum_items(count, [&state, vs, gap = gap_](int v) {
         double along = -state.contact_offset[v];
         for (int c = 0; c < 3; ++c) along += state.contact_normal[c * vs + v] * state.pos[c * vs + v];

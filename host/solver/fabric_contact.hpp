@@ -10,6 +10,14 @@ namespace selvage {
 /// Returns the friction coefficient of every particle: the largest of its panels' fabrics [1].
 std::vector<double> particle_friction(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics);
 
+/// How far the middle of a triangle of the cloth may lie below its corners over a round body: L^2 / (6 R) for edges
+/// up to L, since no point of a triangle is further than L / sqrt(3) from its nearest corner [m]. 0 for planes and meshes.
+double chord_sag(const Body& body, const Cloth& cloth);
+
+/// Whether cloth whose vertices are outside a body by its sag is outside it as a whole, with room to spare: true for
+/// planes, and for spheres and capsules that stand still and are not too small for the cloth's triangles.
+bool clear_by_vertices(const Body& body, const Cloth& cloth, double gap);
+
 /// Contact of the particles with the scene's bodies: the queries of BodyQuery written into the state's fields.
 class FabricContact final : public ContactField {
 public:
@@ -34,6 +42,7 @@ public:
 private:
     BodyQuery& query_;
     std::vector<double> body_friction_;     ///< Per body; NaN: the fabric's.
+    std::vector<double> body_sag_;          ///< Per body: by how much vertices are kept further away [m].
     std::vector<double> fabric_friction_;   ///< Per particle: the largest of its panels'.
     std::vector<int> body_of_vertex_;
     double gap_, margin_;
