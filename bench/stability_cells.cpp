@@ -1,6 +1,5 @@
 #include "bench/stability_cells.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -62,14 +61,13 @@ bool take_steps(Phase& phase, const StabilityCell& cell, StabilityResult& result
     NewtonOptions newton;
     newton.max_iterations = 40;
     newton.still = 3e-2;
-    const auto start = std::chrono::steady_clock::now();
-    const double until = step_count(cell) * cell.step;
+    const double start = thread_seconds(), until = step_count(cell) * cell.step;
     for (double time = 0; time < until * (1 - 1e-9);) {
-        const double before = result.wall;
+        const double before = result.seconds;
         time += control.advance(until - time, newton, true);
-        result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (result.wall > patience) {
-            result.verdict = result.wall - before > hang ? StabilityVerdict::hung : StabilityVerdict::slow;
+        result.seconds = thread_seconds() - start;
+        if (result.seconds > patience) {
+            result.verdict = result.seconds - before > hang ? StabilityVerdict::hung : StabilityVerdict::slow;
             return false;
         }
     }
