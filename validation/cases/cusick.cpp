@@ -48,8 +48,10 @@ Fabric measured_fabric(const std::string& name, double& coefficient, int& folds)
 
 Scene drape_scene(const Fabric& fabric, const Apparatus& apparatus, int across, const std::string& family)
 {
-    const std::vector<std::string> friction = {fmt::format("bending.hysteresis={}", fabric.hysteresis_weft > 0)};
-    Scene scene = read_scene("builtin:cusick", friction);
+    // The folds hang free of each other: contact between them would only be looked for.
+    const std::vector<std::string> choices = {fmt::format("bending.hysteresis={}", fabric.hysteresis_weft > 0),
+                                              "contact.self=false"};
+    Scene scene = read_scene("builtin:cusick", choices);
     scene.sheets[0].radius = apparatus.specimen;
     scene.sheets[0].resolution = across;
     scene.sheets[0].mesh_family = family;
@@ -137,7 +139,8 @@ void compare_meshes(CaseReport& report, const Fabric& cotton, const std::string&
             report.absolute(fmt::format("cotton broad A, {}, {} meshes with {} folds: largest difference [points]", kind,
                                         alike.size(), count), 0, difference(alike), 2);
     if (with_folds.size() > 1)
-        report.inform(fmt::format("cotton broad A, {}, all meshes: largest difference [points]", kind), 0, difference(all));
+        report.inform(fmt::format("cotton broad A, {}, all meshes, folds mixed: largest difference, 2 if alike [points]", kind), 2,
+                      difference(all));
     if (folds > 0)
         report.absolute(fmt::format("cotton broad A, {}: meshes that keep them", kind), double(all.size()),
                         double(with_folds[folds].size()), 0);
