@@ -12,6 +12,7 @@ struct PrecisionScene {
     std::string name, title, source;
     std::vector<std::string> overrides;
     bool at_rest = false;            ///< Only the shape at rest counts.
+    double reference_step = 0;       ///< Of a motion's reference [s]; 0: an eighth of the limit at the start.
 };
 
 /// One run: a point of the diagram.

@@ -13,12 +13,12 @@ PrecisionFront front_of(const std::vector<PrecisionPoint>& points, const std::st
     std::vector<std::pair<double, double>> found;
     for (const PrecisionPoint& point : points)
         if (point.scene == scene && point.integrator == integrator && point.result.finished && std::isfinite(point.error))
-            found.emplace_back(point.result.wall, std::max(point.error, 1e-12));
+            found.emplace_back(point.result.cpu, std::max(point.error, 1e-12));
     std::sort(found.begin(), found.end());
     PrecisionFront front{std::string(integrator), {}, {}};
-    for (const auto& [wall, error] : found) {
+    for (const auto& [seconds, error] : found) {
         if (!front.error.empty() && error >= front.error.back()) continue;
-        front.wall.push_back(wall);
+        front.seconds.push_back(seconds);
         front.error.push_back(error);
     }
     return front;
@@ -45,7 +45,7 @@ std::vector<PrecisionFront> fronts(const std::vector<PrecisionPoint>& points, co
     std::vector<PrecisionFront> all;
     for (const IntegratorInfo& info : integrators()) {
         PrecisionFront front = front_of(points, scene, info.name);
-        if (!front.wall.empty()) all.push_back(std::move(front));
+        if (!front.seconds.empty()) all.push_back(std::move(front));
     }
     return all;
 }
@@ -53,11 +53,11 @@ std::vector<PrecisionFront> fronts(const std::vector<PrecisionPoint>& points, co
 std::optional<double> time_for_error(const PrecisionFront& front, double error)
 {
     if (front.error.empty() || front.error.back() > error) return std::nullopt;
-    if (front.error.front() <= error) return front.wall.front();
+    if (front.error.front() <= error) return front.seconds.front();
     std::size_t i = 1;
     while (front.error[i] > error) ++i;
     const double part = std::log(front.error[i - 1] / error) / std::log(front.error[i - 1] / front.error[i]);
-    return front.wall[i - 1] * std::pow(front.wall[i] / front.wall[i - 1], part);
+    return front.seconds[i - 1] * std::pow(front.seconds[i] / front.seconds[i - 1], part);
 }
 
 std::string verdict_sentence(const std::vector<PrecisionFront>& all, const std::string& scene,

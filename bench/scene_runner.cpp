@@ -2,12 +2,20 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include "host/scene_phase.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
+
+double thread_seconds()
+{
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
 
 SceneRunner::SceneRunner(const std::string& source, const std::vector<std::string>& overrides)
     : scene_(read_scene(source, overrides)), model_(build_scene_model(scene_)),
@@ -67,6 +75,7 @@ RunResult SceneRunner::run(const RunSetting& setting)
     RunResult result;
     Phase phase = make_phase(setting.float_solves);
     const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = thread_seconds();
     try {
         move(phase, setting, result);
     } catch (const DivergenceError& error) {
@@ -74,6 +83,7 @@ RunResult SceneRunner::run(const RunSetting& setting)
     } catch (const UnstableStepError& error) {
         result.message = error.what();
     }
+    result.cpu = thread_seconds() - cpu_start;
     result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.positions = phase.positions();
     return result;

@@ -25,10 +25,14 @@ struct RunSetting {
 struct RunResult {
     std::vector<Vec3> positions;   ///< At the end, per cloth vertex [m].
     double wall = 0;               ///< Of the steps alone, without meshing and allocation [s].
+    double cpu = 0;                ///< Of the same by thread_seconds() [s].
     int steps = 0, newton_iterations = 0, linear_iterations = 0, retries = 0;
     bool finished = false;         ///< Reached the end, or equilibrium.
     std::string message;           ///< Why not.
 };
+
+/// What the calling thread has computed so far [s]; unlike time on the wall it does not depend on who else computes.
+double thread_seconds();
 
 /// Runs one scene again and again from its start, without files.
 class SceneRunner {

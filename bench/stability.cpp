@@ -72,11 +72,11 @@ Survey run_survey(bool quick)
 
 std::string csv_text(const std::vector<StabilityResult>& cells)
 {
-    std::string text = "integrator,step_s,stiffness,resolution,damping_per_s,start,verdict,energy_ratio,wall_s\n";
+    std::string text = "integrator,step_s,stiffness,resolution,damping_per_s,start,verdict,energy_ratio,cpu_s\n";
     for (const StabilityResult& r : cells)
         text += fmt::format("{},{:g},{:g},{},{:g},{},{},{:.6g},{:.4g}\n", r.cell.integrator, r.cell.step,
                             r.cell.stiffness, r.cell.resolution, r.cell.damping, name_of(r.cell.start),
-                            name_of(r.verdict), r.energy_ratio, r.wall);
+                            name_of(r.verdict), r.energy_ratio, r.seconds);
     return text;
 }
 
@@ -91,7 +91,7 @@ Json json_report(const Survey& survey)
         run["run_name"] = run["name"];
         run["run_type"] = "iteration";
         run["iterations"] = 1;
-        run["real_time"] = run["cpu_time"] = r.wall;
+        run["real_time"] = run["cpu_time"] = r.seconds;
         run["time_unit"] = "s";
         run["verdict"] = name_of(r.verdict);
         run["energy_ratio"] = std::isfinite(r.energy_ratio) ? Json(r.energy_ratio) : Json();

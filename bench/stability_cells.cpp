@@ -1,6 +1,5 @@
 #include "bench/stability_cells.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,11 +15,12 @@ constexpr double patience = 20, hang = 60;   // for a cell, and for one step [s]
 constexpr double hurled_speed = 20;        // [m/s]
 constexpr double energy_slack = 1.5;       // symplectic schemes wave by a fifth near their limit; bursts have no bound
 
+// Contact of cloth with itself has no part in this: explicit schemes cannot clear their ways.
 std::vector<std::string> overrides_of(double stiffness, int resolution, double damping, bool body)
 {
     return {fmt::format("sheet.resolution={}", resolution), "sheet.fabric=cotton",
             fmt::format("fabric.cotton.damping={}", damping), fmt::format("membrane.scale={}", stiffness),
-            fmt::format("bending.scale={}", stiffness), fmt::format("contact.body={}", body)};
+            fmt::format("bending.scale={}", stiffness), fmt::format("contact.body={}", body), "contact.self=false"};
 }
 
 void begin(ViolentStart kind, double spacing, State& state)
@@ -62,14 +62,13 @@ bool take_steps(Phase& phase, const StabilityCell& cell, StabilityResult& result
     NewtonOptions newton;
     newton.max_iterations = 40;
     newton.still = 3e-2;
-    const auto start = std::chrono::steady_clock::now();
-    const double until = step_count(cell) * cell.step;
+    const double start = thread_seconds(), until = step_count(cell) * cell.step;
     for (double time = 0; time < until * (1 - 1e-9);) {
-        const double before = result.wall;
+        const double before = result.seconds;
         time += control.advance(until - time, newton, true);
-        result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (result.wall > patience) {
-            result.verdict = result.wall - before > hang ? StabilityVerdict::hung : StabilityVerdict::slow;
+        result.seconds = thread_seconds() - start;
+        if (result.seconds > patience) {
+            result.verdict = result.seconds - before > hang ? StabilityVerdict::hung : StabilityVerdict::slow;
             return false;
         }
     }

@@ -33,7 +33,7 @@ struct StabilityResult {
     StabilityCell cell;
     StabilityVerdict verdict = StabilityVerdict::stable;
     double energy_ratio = 0;     ///< Energy at the end over what was there to begin with [1].
-    double wall = 0;             ///< [s]
+    double seconds = 0;          ///< That the steps took, by thread_seconds() [s].
     std::string message;
 };
 

@@ -7,7 +7,8 @@ namespace selvage {
 PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const PhasePlan& plan);
 
 /// The integrator that moves the cloth while it drapes: solver.integrator, or what `bench work-precision` finds best:
-/// bdf2 for motions, implicit_euler on the way to rest.
+/// bdf2 for motions; on the way to rest static where the way does not matter (no bodies and so no friction, no
+/// hysteresis), implicit_euler elsewhere.
 std::string integrator_of(const Scene& scene);
 
 }  // namespace selvage

@@ -143,22 +143,38 @@ void Newton::keep_outside_bodies()
                                               state_.size.vertex_stride});
 }
 
-// Starts a step from where the cloth would fly on its own, if that is nearer to the minimum than where it is.
-void Newton::guess_step(const NewtonOptions& options)
+// Starts a step from where it was, from where the cloth would fly on its own, or from what its motion so far lets
+// expect: whichever has the lowest objective.
+void Newton::guess_step(const NewtonOptions& options, const std::vector<real>* expected)
 {
     if (contact_) contact_->update(state_);
     base_ = start_;
-    for_each_item(int(start_.size()), [this, vs = state_.size.vertex_stride](int i) {
-        direction_[i] = state_.inv_mass[i % vs] == 0 ? 0 : target_[i] - start_[i];
-    });
-    if (contact_) keep_outside_bodies();
-    if (cloth_) {
-        scale_to_longest(options);
-        clear_way(false);
+    const std::vector<real>* best = &start_;
+    double lowest = objective();
+    const auto go_to = [&](const std::vector<real>& to) {
+        place(0);
+        for_each_item(int(start_.size()), [&to, this, vs = state_.size.vertex_stride](int i) {
+            direction_[i] = state_.inv_mass[i % vs] == 0 ? 0 : to[i] - start_[i];
+        });
+        if (contact_) keep_outside_bodies();
+        if (cloth_) {
+            scale_to_longest(options);
+            clear_way(false);
+        }
+        place(longest_fraction(options));
+    };
+    // Ways through cloth are dear to clear: one must do.
+    const std::vector<real>* flight = cloth_ && expected ? nullptr : &target_;
+    for (const std::vector<real>* candidate : {flight, expected}) {
+        if (!candidate) continue;
+        go_to(*candidate);
+        const double there = objective();
+        if (!(there < lowest)) continue;
+        lowest = there;
+        best = candidate;
     }
-    const double at_rest = objective();
-    place(longest_fraction(options));
-    if (!(objective() < at_rest)) place(0);
+    if (best == &start_) place(0);
+    if (best == &target_ && expected) go_to(target_);
 }
 
 double Newton::largest_move() const
@@ -232,7 +248,7 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
 }
 
 NewtonReport Newton::minimise(double span, const std::vector<real>& origin, const std::vector<real>& target,
-                              const NewtonOptions& options)
+                              const NewtonOptions& options, const std::vector<real>* expected)
 {
     span_ = span;
     inertia_ = 1 / (span * span);
@@ -241,7 +257,7 @@ NewtonReport Newton::minimise(double span, const std::vector<real>& origin, cons
     target_ = target;
     for_each_item(int(state_.vel.size()),
                   [this, inverse = 1 / span](int i) { state_.vel[i] = inverse * (start_[i] - origin_[i]); });
-    guess_step(options);
+    guess_step(options, expected);
     return iterate(options, false);
 }
 

@@ -43,9 +43,10 @@ public:
 
     /// Moves state.pos to the minimum and state.vel to (x - origin) / span; anchors stay as they are.
     /// @param span    h of the objective [s], > 0
-    /// @param origin  planes like pos [m]; at pinned vertices it must equal pos, as must target
+    /// @param origin  planes like pos [m]; at pinned vertices it must equal pos, as must target and expected
+    /// @param expected  where the minimum may be; null: unknown
     NewtonReport minimise(double span, const std::vector<real>& origin, const std::vector<real>& target,
-                          const NewtonOptions& options);
+                          const NewtonOptions& options, const std::vector<real>* expected = nullptr);
     /// One implicit Euler step: state.pos and state.vel move from t to t + dt. @param dt [s], > 0
     NewtonReport step(double dt, const NewtonOptions& options);
     /// Ends a step for all that slips: anchors on bodies, in hinges and between cloth and cloth.
@@ -79,7 +80,7 @@ private:
     void keep_outside_bodies();
     void clear_way(bool uniform);
     void scale_to_longest(const NewtonOptions& options);
-    void guess_step(const NewtonOptions& options);
+    void guess_step(const NewtonOptions& options, const std::vector<real>* expected);
     NewtonReport iterate(const NewtonOptions& options, bool settle_each);
 
     State& state_;

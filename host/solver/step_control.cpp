@@ -48,14 +48,16 @@ void StepControl::restore(const Saved& saved)
     if (phase_.cloth_contact()) phase_.cloth_contact()->memory() = saved.pairs;
     const auto arrays = integrator_.history();
     for (std::size_t k = 0; k < arrays.size(); ++k) *arrays[k] = saved.history[k];
+    if (phase_.contact()) phase_.contact()->update(state);
 }
 
 // The length of the next step when `left` seconds are to be covered; an explicit scheme divides them evenly.
-double StepControl::next_step(double left)
+// @param begins  at a state that has been accepted: only there a run may end because of the limit
+double StepControl::next_step(double left, bool begins)
 {
     if (!integrator_.info().is_explicit) return std::min(dt_, left);
     limit_ = integrator_.stable_step();
-    if (options_.unstable == UnstableStep::refuse && options_.longest > limit_)
+    if (begins && options_.unstable == UnstableStep::refuse && options_.longest > limit_)
         throw UnstableStepError(options_.longest, limit_);
     const double margin = options_.unstable == UnstableStep::refuse ? 1 : stability_margin;
     return left / std::ceil(left / std::min(dt_, margin * limit_) - 1e-9);
@@ -108,10 +110,11 @@ bool StepControl::passed_into_body(bool last)
     return passed;
 }
 
-// Nothing feeds the cloth: its energy falls, but for the waves of a scheme that keeps it on average.
+// Nothing feeds the cloth but bodies and pins that move, whose work is not known: without them its energy falls, but for
+// the waves of a scheme that keeps it on average.
 bool StepControl::keeps_energy(double span, double kinetic_before, double potential_before)
 {
-    if (!integrator_.may_gain_energy()) return true;
+    if (moves_ || !integrator_.may_gain_energy()) return true;
     if (std::isnan(first_energy_)) {
         first_energy_ = kinetic_before + potential_before;
         lowest_potential_ = potential_before;
@@ -121,7 +124,7 @@ bool StepControl::keeps_energy(double span, double kinetic_before, double potent
     const State& s = phase_.state();
     const double mass = sum_items(s.size.vertex_count, [&s](int v) { return s.inv_mass[v] == 0 ? 0.0 : s.mass[v]; });
     const double falling = 0.5 * mass * std::pow(9.81 * span, 2);
-    const double moved = highest_kinetic_ + first_energy_ - lowest_potential_ + falling;
+    const double moved = std::max(highest_kinetic_, first_energy_ - lowest_potential_) + falling;
     // What has just gone deep into a contact shows there only, and not in the planes that the step began with.
     if (phase_.contact()) phase_.contact()->update(phase_.state());
     const ActiveTerms& terms = phase_.newton().terms();
@@ -153,7 +156,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
     double done = 0, first = 0;
     shortest_ = span;
     for (;;) {
-        const double dt = next_step(span - done);
+        const double dt = next_step(span - done, done == 0);
         if (done == 0) first = dt;
         if (adaptive && done > 0) keep(last_);
         // A limit that collapses on the way, or is no number, is that of a state that bursts.
@@ -162,18 +165,18 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
         if (moves_) phase_.move_to(clock_ + done + dt);
         if (!sound || !attempt(dt, options, accurate) || passed_into_body(last) ||
             (last && !keeps_energy(span, kinetic, potential))) {
+            if (moves_) phase_.place(clock_);
             restore(start_);
             looked_from_ = start_.pos;
             done = 0;
-            if (moves_) phase_.place(clock_);
             shrink(first);
             continue;
         }
         if (adaptive && too_inaccurate(dt)) {
             ++retries_;
+            if (moves_) phase_.place(clock_ + done);
             restore(done > 0 ? last_ : start_);
             looked_from_ = phase_.state().pos;
-            if (moves_) phase_.place(clock_ + done);
             continue;
         }
         if (!adaptive && last) dt_ = std::min(options_.longest, 1.5 * dt_);

@@ -79,7 +79,7 @@ private:
 
     void keep(Saved& saved);
     void restore(const Saved& saved);
-    double next_step(double left);
+    double next_step(double left, bool begins);
     bool attempt(double dt, const NewtonOptions& options, bool accurate);
     bool cloth_is_clear();
     bool too_inaccurate(double dt);

@@ -32,10 +32,9 @@ std::vector<double> frequencies(Specimen& specimen)
     return result;
 }
 
-// N equal masses below each other: a ribbon hangs along -x, both of its edges being such a chain.
-void chain(CaseReport& report, int count)
+// A ribbon of 1 m that hangs along -x with its upper end held, stiff in its plane.
+Cloth ribbon(int count)
 {
-    constexpr double gravity = 9.81, mass = 0.01;
     Cloth cloth;
     for (const double y : {0.0, 0.1})
         for (int i = 0; i <= count; ++i) {
@@ -48,9 +47,24 @@ void chain(CaseReport& report, int count)
     }
     cloth.pinned = {0, count + 1};
     cloth.panels = {one_panel(cloth)};
+    return cloth;
+}
+
+constexpr double gravity = 9.81;   // [m/s^2]
+
+Params heavy_membrane()
+{
     Params params = heavy_plate(Vec3(gravity, 0, 0));
     params.plate.scale = 0;
-    Specimen strip(cloth, isotropic_fabric(1e7 * mass * gravity * count, 0, 0, 1), params, Solve::direct_in_plane);
+    return params;
+}
+
+// N equal masses below each other: both edges of the ribbon are such a chain.
+void chain(CaseReport& report, int count)
+{
+    constexpr double mass = 0.01;
+    Specimen strip(ribbon(count), isotropic_fabric(1e7 * mass * gravity * count, 0, 0, 1), heavy_membrane(),
+                   Solve::direct_in_plane);
     State& state = strip.state();
     for (int v = 0; v < state.size.vertex_count; ++v) {
         state.mass[v] = mass;
@@ -68,6 +82,21 @@ void chain(CaseReport& report, int count)
             report.relative(fmt::format("hanging chain of {} masses, omega_{} [rad/s]", count, mode + 1), expected,
                             measured[2 * mode], 1e-4);
     }
+}
+
+// A heavy chain without links: the ribbon with the masses that its cloth has. Its edges swing apart from each other, the
+// one with a third of a link's mass at its tip and the other with two thirds; their mean is the ribbon's.
+void continuous_chain(CaseReport& report)
+{
+    constexpr double areal_density = 0.2, width = 0.1;
+    Specimen strip(ribbon(120), isotropic_fabric(1e7 * areal_density * width * gravity, 0, 0, areal_density),
+                   heavy_membrane(), Solve::direct_in_plane);
+    strip.balance(1e-5);
+    const std::vector<double> measured = frequencies(strip);
+    for (int mode = 1; mode <= 5; ++mode)
+        report.relative(fmt::format("heavy ribbon of 1 m, omega_{} [rad/s]", mode),
+                        oscillation_reference("hanging_chain_L=1", fmt::format("omega_{}", mode)),
+                        0.5 * (measured[2 * mode - 2] + measured[2 * mode - 1]), 0.01);
 }
 
 // A square that is stretched alike along both sides and held at its rim.
@@ -120,6 +149,8 @@ void check_frequencies(CaseReport& report)
 {
     report.from("oscillation_references.csv: zeros of Laguerre polynomials");
     for (const int count : {10, 50}) chain(report, count);
+    report.from("oscillation_references.csv: zeros of Bessel's J0");
+    continuous_chain(report);
     report.from("oscillation_references.csv: closed form of the stretched square");
     for (const char* stretch : {"1.01", "1.05", "1.1"}) drum(report, stretch);
     report.from("oscillation_references.csv: clamped-free beam");

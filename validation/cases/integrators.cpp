@@ -1,5 +1,7 @@
 // Motion in time: integrators against oscillation_references.csv, their orders, and what they must conserve.
 #include <cmath>
+#include <memory>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -50,6 +52,65 @@ void damped(CaseReport& report)
                         oscillation_reference("damped_oscillator", "x(2)") / 0.1, oscillator.height(), tolerance);
         report.absolute(fmt::format("{}, dt 0.001: damped oscillator, v(2) / (x0 omega)", name),
                         oscillation_reference("damped_oscillator", "v(2)"), oscillator.speed() / 10, tolerance);
+    }
+}
+
+// A mass of 1 kg on a spring of 1 m and 100 N/m, let go at 30 degrees: a triangle of which one side is that spring, the
+// others have no force, and two corners are held. Rows with a damper in the spring have no counterpart here.
+class ElasticPendulum {
+public:
+    explicit ElasticPendulum(std::string_view integrator)
+    {
+        model_.cloth.positions = {{0, 0, 0}, {0.5, 0, -std::sqrt(0.75)}, {0, 1, 0}};
+        model_.cloth.panel_coordinates = {{0, 0}, {1, 0}, {0, 1}};
+        model_.cloth.faces = {{0, 1, 2}};
+        model_.cloth.pinned = {0, 2};
+        model_.cloth.panels = {one_panel(model_.cloth)};
+        model_.fabrics = {{specimen_fabric, isotropic_fabric(1, 0, 0, 1)}};
+        PhaseOptions options;
+        options.params.spring.scale = 1;
+        options.params.gravity.acceleration_z = -9.81;
+        phase_ = std::make_unique<Phase>(model_, options, nullptr, profile_, model_.cloth.positions, std::vector<Vec3>());
+        State& s = phase_->state();
+        const int ss = s.size.spring_stride;
+        for (int k = 0; k < s.size.spring_count; ++k) {
+            const bool hangs = s.spring_vertex[k] + s.spring_vertex[ss + k] == 1;
+            s.spring_length[k] = 1;
+            s.spring_constant[k] = s.spring_constant[ss + k] = hangs ? 100 : 0;
+        }
+        s.mass[1] = s.inv_mass[1] = 1;
+        integrator_ = make_integrator(integrator, *phase_);
+    }
+    void step(double dt) { integrator_->step(dt, exact_steps()); }
+    double x() const { return phase_->state().pos[1]; }
+    double y() const { return phase_->state().pos[2 * phase_->state().size.vertex_stride + 1]; }
+    double energy() { return phase_->newton().potential_energy() + phase_->newton().kinetic_energy(); }
+
+private:
+    ClothModel model_;
+    Profile profile_;
+    std::unique_ptr<Phase> phase_;
+    std::unique_ptr<Integrator> integrator_;
+};
+
+void elastic_pendulum(CaseReport& report)
+{
+    constexpr double dt = 5e-4;
+    const std::string test = "elastic_pendulum_m1_k100_L1_c0_theta30";
+    for (const auto& [name, tolerance] : {std::pair{"rk4", 1e-9}, {"implicit_midpoint", 2e-5}, {"velocity_verlet", 2e-5}}) {
+        ElasticPendulum pendulum(name);
+        int done = 0;
+        for (const char* time : {"0.5", "1", "2", "5"}) {
+            for (const int until = int(std::lround(std::stod(time) / dt)); done < until; ++done) pendulum.step(dt);
+            const auto compare = [&](const char* quantity, const char* unit, double measured) {
+                const std::string key = fmt::format("{}({})", quantity, time);
+                report.absolute(fmt::format("{}, dt {:g}: elastic pendulum, {} [{}]", name, dt, key, unit),
+                                oscillation_reference(test, key), measured, tolerance);
+            };
+            compare("x", "m", pendulum.x());
+            compare("y", "m", pendulum.y());
+            compare("E", "J", pendulum.energy());
+        }
     }
 }
 
@@ -205,6 +266,8 @@ void check_integrators(CaseReport& report)
     step_factors(report);
     report.from("oscillation_references.csv: closed form");
     damped(report);
+    report.from("oscillation_references.csv: elastic pendulum, integrated in many digits");
+    elastic_pendulum(report);
     long_run(report);
     for (const IntegratorInfo& info : integrators()) {
         if (info.order == 0) continue;

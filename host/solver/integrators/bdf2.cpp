@@ -40,7 +40,7 @@ public:
             last_way_[i] = -s.pos[i];
             last_gain_[i] = -s.vel[i];
         });
-        const NewtonReport report = phase_.newton().minimise(h, origin_, target_, options);
+        const NewtonReport report = phase_.newton().minimise(h, origin_, target_, options, first ? nullptr : &guess_);
         for_each_item(n, [&](int i) {
             last_way_[i] += s.pos[i];
             last_gain_[i] += s.vel[i];

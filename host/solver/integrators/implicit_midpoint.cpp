@@ -12,7 +12,7 @@ class ImplicitMidpoint final : public Integrator {
 public:
     ImplicitMidpoint(Phase& phase, const IntegratorInfo& info) : phase_(phase), info_(info)
     {
-        for (std::vector<real>* v : {&acceleration_, &before_, &start_, &start_vel_, &target_})
+        for (std::vector<real>* v : {&acceleration_, &before_, &start_, &start_vel_, &target_, &expected_})
             v->assign(phase.state().pos.size(), 0);
     }
     const IntegratorInfo& info() const override { return info_; }
@@ -29,8 +29,13 @@ public:
         start_ = s.pos;
         start_vel_ = s.vel;
         before_ = acceleration_;
-        for_each_item(n, [&, dt](int i) { target_[i] = s.pos[i] + 0.5 * dt * s.vel[i]; });
-        const NewtonReport report = phase_.newton().minimise(0.5 * dt, start_, target_, options);
+        for_each_item(n, [&, dt](int i) {
+            target_[i] = s.pos[i] + 0.5 * dt * s.vel[i];
+            expected_[i] = target_[i] + 0.25 * dt * dt * acceleration_[i];
+        });
+        const bool first = last_dt_[0] == 0;
+        const NewtonReport report =
+            phase_.newton().minimise(0.5 * dt, start_, target_, options, first ? nullptr : &expected_);
         for_each_item(n, [&, dt](int i) {
             s.pos[i] += s.pos[i] - start_[i];
             s.vel[i] += s.vel[i] - start_vel_[i];
@@ -47,7 +52,7 @@ public:
 private:
     Phase& phase_;
     const IntegratorInfo& info_;
-    std::vector<real> acceleration_, before_, last_dt_{0}, start_, start_vel_, target_;
+    std::vector<real> acceleration_, before_, last_dt_{0}, start_, start_vel_, target_, expected_;
     double error_ = 0;
 };
 
