@@ -12,7 +12,7 @@ struct SkipCase {
 };
 
 /// All cases; the first of each feature is the one without it. Idle means: declared, with nothing to do.
-/// Features whose keys this version does not have are left out.
+/// The sheet hangs without folds, so that contact with itself is idle at most.
 /// @param resolution  vertices a side   @param until  simulated time [s]   @param folder  where scenes are written
 std::vector<SkipCase> skip_cases(int resolution, double until, const std::string& folder);
 

@@ -17,6 +17,7 @@ struct CoarseStage {
     int newton_iterations = 0, linear_iterations = 0;
     double residual = 0;      ///< Relative force residual at its end [1].
     double wall_seconds = 0;
+    int crossings = 0;        ///< Of the shape that was carried over from it; if there are any, it was not used.
 };
 
 struct CoarseStart {
@@ -26,7 +27,8 @@ struct CoarseStart {
 };
 
 /// Drapes the coarser cloths of a scene, each from the shape of the one before, and carries the last shape over to the
-/// scene's own cloth. Most of the way is gone on the coarsest, where a step costs next to nothing.
+/// scene's own cloth. Most of the way is gone on the coarsest, where a step costs next to nothing. Where cloth must not
+/// pass through itself, a carried shape that does is dropped, and the finer cloth starts as the scene says.
 /// Source: Zhang and others 2022, progressive cloth quasistatics.
 /// @param options   of the run itself; its integrator is not used
 /// @param progress  its time goes on from stage to stage
@@ -35,7 +37,12 @@ CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, cons
                                const EquilibriumOptions& options, DrapeProgress& progress, Profile& profile,
                                const AfterStep& after_step);
 
-/// Interpolates a shape of a coarser cloth. @param positions  per coarse vertex [m]
-std::vector<Vec3> carry_over(const Transfer& transfer, const std::vector<Vec3>& positions);
+/// Interpolates a shape of a coarser cloth, with w its linear weights and F_i the mean deformation gradient at vertex i:
+///     x(u) = sum_i w_i (x_i + 1/2 F_i (u - u_i)),
+/// which is exact for shapes that are quadratic in u: a linear one would crease the fine cloth along the coarse edges.
+/// Held vertices of the fine cloth stay where they are.
+/// @param positions  per coarse vertex [m]
+std::vector<Vec3> carry_over(const Cloth& coarse, const Cloth& fine, const Transfer& transfer,
+                             const std::vector<Vec3>& positions);
 
 }  // namespace selvage

@@ -51,7 +51,8 @@ Json coarse_json(const RunSummary& summary)
                         {"newton_iterations", stage.newton_iterations},
                         {"linear_iterations", stage.linear_iterations},
                         {"residual", number(stage.residual)},
-                        {"seconds", number(stage.seconds)}});
+                        {"seconds", number(stage.seconds)},
+                        {"crossings", stage.crossings}});
     return list;
 }
 
