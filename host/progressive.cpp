@@ -29,32 +29,6 @@ DrapeProgress near_rest(double time)
     return progress;
 }
 
-using Gradient = Eigen::Matrix<double, 3, 2>;
-
-// The mean over the faces around each vertex, by area.
-std::vector<Gradient> vertex_gradients(const Cloth& cloth, const std::vector<Vec3>& positions)
-{
-    std::vector<Gradient> sum(positions.size(), Gradient::Zero());
-    std::vector<double> areas(positions.size());
-    for (int f = 0; f < int(cloth.faces.size()); ++f) {
-        const Face& face = cloth.faces[f];
-        const Vec2 a = cloth.panel_coordinates[face[1]] - cloth.panel_coordinates[face[0]];
-        const Vec2 b = cloth.panel_coordinates[face[2]] - cloth.panel_coordinates[face[0]];
-        const double area = 0.5 * (a.x() * b.y() - a.y() * b.x());
-        const std::array<double, 4> w = face_rest_weights(cloth, f);
-        const Vec3 one = positions[face[1]] - positions[face[0]], two = positions[face[2]] - positions[face[0]];
-        Gradient gradient;
-        gradient << w[0] * one + w[1] * two, w[2] * one + w[3] * two;
-        for (int v : face) {
-            sum[v] += area * gradient;
-            areas[v] += area;
-        }
-    }
-    for (std::size_t v = 0; v < sum.size(); ++v)
-        if (areas[v] > 0) sum[v] /= areas[v];
-    return sum;
-}
-
 int crossings_of(const Cloth& cloth, const std::vector<Vec3>& positions)
 {
     const TraceScope scope("crossings");
@@ -82,18 +56,13 @@ std::string why_no_coarse_start(const Scene& scene, const SceneModel& model)
     return "";
 }
 
-std::vector<Vec3> carry_over(const Cloth& coarse, const Cloth& fine, const Transfer& transfer,
-                             const std::vector<Vec3>& positions)
+std::vector<Vec3> carry_over(const Cloth& fine, const Transfer& transfer, const std::vector<Vec3>& positions)
 {
-    const std::vector<Gradient> gradients = vertex_gradients(coarse, positions);
     std::vector<Vec3> result(fine.positions.size());
     for_each_item(int(result.size()), [&, to = result.data()](int v) {
         to[v] = Vec3::Zero();
-        for (int k = transfer.offset[v]; k < transfer.offset[v + 1]; ++k) {
-            const int i = transfer.column[k];
-            const Vec2 way = fine.panel_coordinates[v] - coarse.panel_coordinates[i];
-            to[v] += transfer.weight[k] * (positions[i] + 0.5 * gradients[i] * way);
-        }
+        for (int k = transfer.offset[v]; k < transfer.offset[v + 1]; ++k)
+            to[v] += transfer.weight[k] * positions[transfer.column[k]];
     });
     for (int v : fine.pinned) result[v] = fine.positions[v];
     return result;
@@ -123,7 +92,7 @@ CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, cons
         if (start.stopped) return start;
         stage.residual = phase.newton().static_residual();
         const Cloth& finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
-        start.positions = carry_over(own.model.cloth, finer, model.model.transfers[level], phase.positions());
+        start.positions = carry_over(finer, model.model.transfers[level], phase.positions());
         if (phase.cloth_contact()) stage.crossings = crossings_of(finer, start.positions);
         progress = stage.crossings > 0 ? DrapeProgress{.time = progress.time} : near_rest(progress.time);
         if (stage.crossings > 0) start.positions = finer.positions;
