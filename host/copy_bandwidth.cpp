@@ -15,7 +15,6 @@ namespace selvage {
 namespace {
 
 constexpr std::size_t megabyte = std::size_t(1) << 20;
-constexpr int passes = 8;
 
 std::size_t last_level_cache_bytes()
 {
@@ -43,7 +42,7 @@ void for_each_slice(std::size_t bytes, int slices, const Body& body)
 
 }  // namespace
 
-double measure_copy_bandwidth(std::size_t most_bytes)
+double measure_copy_bandwidth(std::size_t most_bytes, int passes)
 {
     const std::size_t bytes = std::min(std::max(4 * last_level_cache_bytes(), 128 * megabyte), most_bytes);
     const int threads = tbb::this_task_arena::max_concurrency();

@@ -2,7 +2,8 @@
 
 #include <chrono>
 
-#include "host/collision/cloth_crossings.hpp"
+#include "host/cloth_picture.hpp"
+#include "host/collision/self_intersections.hpp"
 #include "host/scene_phase.hpp"
 #include "host/solver/launch.hpp"
 
@@ -29,15 +30,10 @@ DrapeProgress near_rest(double time)
     return progress;
 }
 
-int crossings_of(const Cloth& cloth, const std::vector<Vec3>& positions)
+int intersections_of(const Cloth& cloth, const std::vector<Vec3>& positions)
 {
-    const TraceScope scope("crossings");
-    const Topology topology = make_topology(cloth, true);
-    const std::size_t stride = std::size_t(topology.particle_count);
-    std::vector<double> planes(3 * stride);
-    for (std::size_t v = 0; v < positions.size(); ++v)
-        for (std::size_t c = 0; c < 3; ++c) planes[c * stride + std::size_t(topology.particle_of[v])] = positions[v][int(c)];
-    return count_crossings(tree_surface(topology, cloth), planes.data(), int(stride), topology.particle_count);
+    const TraceScope scope("self_intersections");
+    return int(self_intersections(positions, shared_faces(cloth, make_topology(cloth, true))).size());
 }
 
 }  // namespace
@@ -93,9 +89,9 @@ CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, cons
         stage.residual = phase.newton().static_residual();
         const Cloth& finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
         start.positions = carry_over(finer, model.model.transfers[level], phase.positions());
-        if (phase.cloth_contact()) stage.crossings = crossings_of(finer, start.positions);
-        progress = stage.crossings > 0 ? DrapeProgress{.time = progress.time} : near_rest(progress.time);
-        if (stage.crossings > 0) start.positions = finer.positions;
+        if (phase.cloth_contact()) stage.intersections = intersections_of(finer, start.positions);
+        progress = stage.intersections > 0 ? DrapeProgress{.time = progress.time} : near_rest(progress.time);
+        if (stage.intersections > 0) start.positions = finer.positions;
         stage.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         start.stages.push_back(stage);
     }

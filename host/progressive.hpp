@@ -17,7 +17,7 @@ struct CoarseStage {
     int newton_iterations = 0, linear_iterations = 0;
     double residual = 0;      ///< Relative force residual at its end [1].
     double wall_seconds = 0;
-    int crossings = 0;        ///< Of the shape that was carried over from it; if there are any, it was not used.
+    int intersections = 0;    ///< Of the shape that was carried over from it; if there are any, it was not used.
 };
 
 struct CoarseStart {

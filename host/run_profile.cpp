@@ -14,7 +14,8 @@ namespace selvage {
 namespace {
 
 // Enough to leave the caches of one core; a benchmark's larger arrays would take longer than short runs.
-constexpr std::size_t most_copy_bytes = std::size_t(256) << 20;
+constexpr std::size_t most_copy_bytes = std::size_t(128) << 20;
+constexpr int copy_passes = 4;
 
 double quantile(std::vector<float> values, double part)
 {
@@ -76,7 +77,7 @@ void conclude_profile(const Trace& trace, const std::string& folder)
     const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     const int threads = std::min(int(allowed), tbb::this_task_arena::max_concurrency());
     ProfileReport report = profile_report(trace, threads, 1);
-    report.copy_bytes_per_second = measure_copy_bandwidth(most_copy_bytes);
+    report.copy_bytes_per_second = measure_copy_bandwidth(most_copy_bytes, copy_passes);
     fmt::print(stderr, "{}", profile_table(report));
     write_chrome_trace(folder + "/trace.json", report);
     if (std::filesystem::exists(folder + "/run.h5")) write_profile(folder + "/run.h5", report);

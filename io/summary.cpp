@@ -52,7 +52,7 @@ Json coarse_json(const RunSummary& summary)
                         {"linear_iterations", stage.linear_iterations},
                         {"residual", number(stage.residual)},
                         {"seconds", number(stage.seconds)},
-                        {"crossings", stage.crossings}});
+                        {"intersections", stage.intersections}});
     return list;
 }
 

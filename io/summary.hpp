@@ -36,7 +36,7 @@ struct PanelFit {
 struct CoarseUse {
     int vertices = -1, newton_iterations = -1, linear_iterations = -1;
     double residual, seconds;
-    int crossings = 0;   ///< Of the shape carried over from it; if there are any, it was not used.
+    int intersections = 0;   ///< Of the shape carried over from it; if there are any, it was not used.
 };
 
 /// How an explicit integrator's steps stood to its stability limit; NaN: no limit.
