@@ -6,6 +6,7 @@
 #include "host/collision/self_intersections.hpp"
 #include "host/scene_phase.hpp"
 #include "host/solver/launch.hpp"
+#include "io/errors.hpp"
 
 namespace selvage {
 namespace {
@@ -28,6 +29,24 @@ DrapeProgress near_rest(double time)
     progress.time = time;
     progress.residual = progress.switch_residual;
     return progress;
+}
+
+// Returns whether the run goes on.
+bool drape_stage(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress, const AfterStep& after_step,
+                 CoarseStage& stage)
+{
+    const AfterStep hear = [&](const StepEvent& event) {
+        stage.newton_iterations += event.newton_iterations;
+        stage.linear_iterations += event.linear_iterations;
+        return after_step(event);
+    };
+    try {
+        if (drape_to_equilibrium(phase, options, progress, hear) == PhaseEnd::stopped) return false;
+        stage.residual = phase.newton().static_residual();
+    } catch (const DivergenceError&) {
+        stage.used = false;
+    }
+    return true;
 }
 
 int intersections_of(const Cloth& cloth, const std::vector<Vec3>& positions)
@@ -77,21 +96,16 @@ CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, cons
         const auto begin = std::chrono::steady_clock::now();
         SceneModel own;
         own.model = model_from(model.model, level);
+        const Cloth& finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
         Phase phase(own.model, phase_options(scene, own, plan), nullptr, profile, start.positions, {});
         CoarseStage stage{.vertices = phase.state().size.vertex_count};
-        const AfterStep hear = [&](const StepEvent& event) {
-            stage.newton_iterations += event.newton_iterations;
-            stage.linear_iterations += event.linear_iterations;
-            return after_step(event);
-        };
-        start.stopped = drape_to_equilibrium(phase, coarse, progress, hear) == PhaseEnd::stopped;
+        start.stopped = !drape_stage(phase, coarse, progress, after_step, stage);
         if (start.stopped) return start;
-        stage.residual = phase.newton().static_residual();
-        const Cloth& finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
         start.positions = carry_over(finer, model.model.transfers[level], phase.positions());
-        if (phase.cloth_contact()) stage.intersections = intersections_of(finer, start.positions);
-        progress = stage.intersections > 0 ? DrapeProgress{.time = progress.time} : near_rest(progress.time);
-        if (stage.intersections > 0) start.positions = finer.positions;
+        if (stage.used && phase.cloth_contact()) stage.intersections = intersections_of(finer, start.positions);
+        stage.used = stage.used && stage.intersections == 0;
+        if (!stage.used) start.positions = finer.positions;
+        progress = stage.used ? near_rest(progress.time) : DrapeProgress{.time = progress.time};
         stage.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         start.stages.push_back(stage);
     }

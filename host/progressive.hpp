@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,10 @@ std::string why_no_coarse_start(const Scene& scene, const SceneModel& model);
 struct CoarseStage {
     int vertices = 0;
     int newton_iterations = 0, linear_iterations = 0;
-    double residual = 0;      ///< Relative force residual at its end [1].
+    double residual = std::numeric_limits<double>::quiet_NaN();   ///< Relative force residual at its end [1]; NaN: it diverged.
     double wall_seconds = 0;
-    int intersections = 0;    ///< Of the shape that was carried over from it; if there are any, it was not used.
+    int intersections = 0;    ///< Of the shape that was carried over from it.
+    bool used = true;         ///< False: it diverged, or its shape passes through itself on the finer mesh.
 };
 
 struct CoarseStart {
@@ -28,11 +30,11 @@ struct CoarseStart {
 
 /// Drapes the coarser cloths of a scene, each from the shape of the one before, and carries the last shape over to the
 /// scene's own cloth. Most of the way is gone on the coarsest, where a step costs next to nothing. Where cloth must not
-/// pass through itself, a carried shape that does is dropped, and the finer cloth starts as the scene says.
+/// pass through itself, a carried shape that does is dropped, as is that of a stage that diverged: the finer cloth then
+/// starts as the scene says.
 /// Source: Zhang and others 2022, progressive cloth quasistatics.
 /// @param options   of the run itself; its integrator is not used
 /// @param progress  its time goes on from stage to stage
-/// @throws DivergenceError if a stage diverges
 CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, const PhasePlan& plan,
                                const EquilibriumOptions& options, DrapeProgress& progress, Profile& profile,
                                const AfterStep& after_step);

@@ -223,7 +223,8 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
     for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
     s.stability = stability;
     for (const CoarseStage& c : coarse_stages)
-        s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds, c.intersections});
+        s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds,
+                                  c.intersections, c.used});
     s.residual = residual;
     s.energy.membrane = in_plane_energy(phase.newton());
     s.energy.bending = bending_energy(phase.newton());

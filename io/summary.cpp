@@ -52,7 +52,8 @@ Json coarse_json(const RunSummary& summary)
                         {"linear_iterations", stage.linear_iterations},
                         {"residual", number(stage.residual)},
                         {"seconds", number(stage.seconds)},
-                        {"intersections", stage.intersections}});
+                        {"intersections", stage.intersections},
+                        {"used", stage.used}});
     return list;
 }
 

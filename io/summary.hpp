@@ -36,7 +36,8 @@ struct PanelFit {
 struct CoarseUse {
     int vertices = -1, newton_iterations = -1, linear_iterations = -1;
     double residual, seconds;
-    int intersections = 0;   ///< Of the shape carried over from it; if there are any, it was not used.
+    int intersections = 0;   ///< Of the shape carried over from it.
+    bool used = true;        ///< False: it diverged (no residual), or its shape passes through itself on the finer mesh.
 };
 
 /// How an explicit integrator's steps stood to its stability limit; NaN: no limit.

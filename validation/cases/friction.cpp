@@ -42,7 +42,7 @@ double resting_gap(const Params& params, double pressure)
     double low = 0.02, high = 1;   // of the contact gap
     for (int k = 0; k < 60; ++k) {
         const double middle = 0.5 * (low + high);
-        (-params.body_contact.stiffness * body_contact_barrier(middle).slope > pressure ? low : high) = middle;
+        (-params.body_contact.stiffness * barrier_at(middle).slope > pressure ? low : high) = middle;
     }
     return low * params.body_contact.gap;
 }
