@@ -3,6 +3,8 @@
 #include <iostream>
 
 #include "bench/kernels.hpp"
+#include "bench/scaling.hpp"
+#include "bench/skip.hpp"
 #include "bench/stability.hpp"
 #include "bench/work_precision.hpp"
 #include "io/errors.hpp"
@@ -18,6 +20,8 @@ struct Suite {
 const std::vector<Suite>& suites()
 {
     static const std::vector<Suite> all = {{"kernels", bench_kernels},
+                                             {"skip", bench_skip},
+                                             {"scaling", bench_scaling},
                                              {"work-precision", bench_work_precision},
                                              {"stability", bench_stability}};
     return all;

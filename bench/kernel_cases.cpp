@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bench/kernel_traffic.hpp"
+#include "host/solver/traffic.hpp"
 #include "host/solver/anchors.hpp"
 #include "host/solver/newton.hpp"
 

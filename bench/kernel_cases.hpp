@@ -13,7 +13,7 @@ struct KernelCase {
     std::string name;                     ///< Such as `membrane/force` or `gather_forces`.
     std::string item;                     ///< Kind of its items.
     int items = 0;                        ///< Per call.
-    std::size_t bytes = 0;                ///< That a call must move; see kernel_traffic.hpp.
+    std::size_t bytes = 0;                ///< That a call must move; see host/solver/traffic.hpp.
     std::function<void()> run = {};
     std::function<void()> prepare = {};   ///< Once before a series of calls; may be empty.
     std::function<void()> reset = {};     ///< Before every call, not measured; may be empty.

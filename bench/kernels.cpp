@@ -7,7 +7,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "bench/copy_bandwidth.hpp"
+#include "host/copy_bandwidth.hpp"
 #include "bench/kernel_cases.hpp"
 #include "bench/options.hpp"
 #include "bench/report.hpp"

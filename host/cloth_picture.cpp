@@ -1,5 +1,7 @@
 #include "host/cloth_picture.hpp"
 
+#include "host/solver/trace.hpp"
+
 namespace selvage {
 namespace {
 
@@ -40,7 +42,9 @@ void draw_cloth(const std::string& path, const Cloth& cloth, const std::vector<T
             picture.seam_edges.push_back(
                 {representative[cloth.seam_pairs[k][0]], representative[cloth.seam_pairs[k + 1][0]]});
     if (!cloth.seams.empty()) options.views = PictureViews::front_and_back;
-    write_png(path, render_picture(picture, bodies, options));
+    const Image image = render_picture(picture, bodies, options);
+    const TraceScope scope("opencv");
+    write_png(path, image);
 }
 
 }  // namespace selvage

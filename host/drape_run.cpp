@@ -10,6 +10,7 @@
 
 #include "host/interrupt.hpp"
 #include "host/measure.hpp"
+#include "host/run_profile.hpp"
 #include "host/scene_phase.hpp"
 #include "io/errors.hpp"
 
@@ -29,6 +30,7 @@ double DrapeRun::elapsed() const
 void DrapeRun::start_phase(const std::string& name, const std::vector<Vec3>& positions,
                            const std::vector<Vec3>& velocities)
 {
+    const TraceScope scope("start_phase");
     const auto plan = std::find_if(plan_.phases.begin(), plan_.phases.end(),
                                    [&](const PhasePlan& phase) { return phase.name == name; });
     integrator_.reset();
@@ -41,10 +43,11 @@ void DrapeRun::start_phase(const std::string& name, const std::vector<Vec3>& pos
 void DrapeRun::begin()
 {
     recorder_ = std::make_unique<RunRecorder>(scene_, model_, options_, false);
-    progress_.phase = plan_.phases.front().name;
+    const std::string& first = plan_.phases.front().name;
     progress_.counters.phases["assemble"] = elapsed();
-    start_phase(progress_.phase, model_.model.cloth.positions, {});
-    recorder_->open_phase(progress_.phase, phase_->topology(), -1);
+    start_phase(first, model_.model.cloth.positions, {});
+    recorder_->open_phase(first, phase_->topology(), -1);
+    progress_.phase = plan_.coarse_start ? "coarse" : first;
     if (scene_.output.frames) recorder_->write_frame(*phase_, {}, elapsed(), true);
 }
 
@@ -64,6 +67,7 @@ void DrapeRun::resume()
 
 void DrapeRun::save()
 {
+    const TraceScope scope("checkpoint");
     progress_.wall_seconds = elapsed();
     progress_.frames = recorder_->frame_count();
     save_run(checkpoint_path(), model_, progress_, *phase_, *integrator_);
@@ -91,7 +95,8 @@ bool DrapeRun::after_step(const StepEvent& event)
     counters.linear_iterations += event.linear_iterations;
     counters.simulated += event.dt;
     recorder_->report(progress_.phase, event, counters.steps);
-    if (progress_.phase != "press") recorder_->write_frame(*phase_, event, elapsed(), false);
+    const bool shown = progress_.phase != "press" && progress_.phase != "coarse";
+    if (shown) recorder_->write_frame(*phase_, event, elapsed(), false);
     // In the middle of a static attempt there is nothing to go on from: it is repeated from its start.
     if (event.dt > 0 && elapsed() - last_checkpoint_ >= scene_.output.checkpoint_interval) save();
     const bool out_of_time = scene_.solver.max_wall > 0 && elapsed() - wall_before_ > scene_.solver.max_wall;
@@ -100,6 +105,7 @@ bool DrapeRun::after_step(const StepEvent& event)
 
 PhaseEnd DrapeRun::run_sewing()
 {
+    const TraceScope scope("sew");
     SewingOptions options;
     options.step = scene_.solver.step;
     options.closed = scene_.seams.closed;
@@ -121,11 +127,12 @@ void DrapeRun::join_seams()
 
 PhaseEnd DrapeRun::run_pressing()
 {
+    const TraceScope scope("press");
     return press_seams(*phase_, scene_.solver.step, progress_.pressing,
                        [this](const StepEvent& event) { return after_step(event); });
 }
 
-PhaseEnd DrapeRun::run_draping()
+EquilibriumOptions DrapeRun::draping_options()
 {
     EquilibriumOptions options;
     options.step.longest = scene_.solver.step;
@@ -137,6 +144,24 @@ PhaseEnd DrapeRun::run_draping()
     options.max_time = scene_.solver.max_time;
     options.newton_iterations = scene_.solver.newton_iterations;
     options.load_steps = scene_.solver.load_steps;
+    return options;
+}
+
+PhaseEnd DrapeRun::run_coarse()
+{
+    const TraceScope scope("coarse");
+    const CoarseStart start = drape_coarse_first(scene_, model_, plan_.phases.back(), draping_options(), progress_.draping,
+                                                 profile_, [this](const StepEvent& event) { return after_step(event); });
+    if (start.stopped) return PhaseEnd::stopped;
+    coarse_stages_ = start.stages;
+    place_particles(*phase_, start.positions);
+    return PhaseEnd::reached;
+}
+
+PhaseEnd DrapeRun::run_draping()
+{
+    const TraceScope scope("drape");
+    const EquilibriumOptions options = draping_options();
     const AfterStep hear = [this](const StepEvent& event) { return after_step(event); };
     if (scene_.solver.until == "equilibrium") return drape_to_equilibrium(*phase_, options, progress_.draping, hear);
     return drape_until(*phase_, options, std::stod(scene_.solver.until), 1 / scene_.solver.frame_rate,
@@ -163,22 +188,28 @@ PhaseEnd DrapeRun::run_phases()
         if (scene_.output.frames) recorder_->write_frame(*phase_, {}, elapsed(), true);
         save();
     }
+    if (progress_.phase == "coarse") {
+        const PhaseEnd end = timed(run_coarse());
+        if (end != PhaseEnd::reached) return end;
+        progress_.phase = "drape";
+        save();
+    }
     return timed(run_draping());
 }
 
 RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
 {
+    const TraceScope scope("conclude");
     const double residual = phase_->newton().static_residual();
     const StepEvent event{progress_.phase == "sew" ? progress_.sewing.time : progress_.draping.time, 0, 0, 0, residual};
     // A garment that is still being pressed is not yet the draped one that run.h5 begins with.
     if (progress_.phase != "press") recorder_->write_frame(*phase_, event, elapsed(), true);
     save();
     recorder_->close_phase();
-    recorder_->conclude(status, progress_.draping.time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters, stability_,
-                        profile_, residual, elapsed(), message);
+    recorder_->conclude(status, progress_.draping.time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
+                        stability_, coarse_stages_, profile_, residual, elapsed(), message);
     const bool complete = status == RunStatus::converged || status == RunStatus::finished;
     if (complete && !scene_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());
-    if (options_.profile) fmt::print(stderr, "{}", profile_.table());
     int code = complete ? 0 : 4;
     if (status == RunStatus::diverged) code = 3;
     if (status == RunStatus::interrupted) code = interrupt_exit_code();
@@ -234,7 +265,12 @@ RunOutcome run_drape(const Scene& scene, const RunOptions& options)
     std::optional<tbb::global_control> limit;
     if (scene.solver.threads > 0)
         limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(scene.solver.threads));
-    return DrapeRun(scene, options).execute();
+    std::optional<Trace> trace;
+    if (options.profile) trace.emplace();
+    const TraceUse use(trace ? &*trace : nullptr);
+    const RunOutcome outcome = DrapeRun(scene, options).execute();
+    if (trace) conclude_profile(*trace, options.folder);
+    return outcome;
 }
 
 }  // namespace selvage

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/run.hpp"
+#include "host/progressive.hpp"
 #include "host/restart.hpp"
 #include "host/run_recorder.hpp"
 #include "host/scene_model.hpp"
@@ -29,6 +30,8 @@ private:
     PhaseEnd run_sewing();
     void join_seams();
     PhaseEnd run_pressing();
+    EquilibriumOptions draping_options();
+    PhaseEnd run_coarse();
     PhaseEnd run_draping();
     bool after_step(const StepEvent& event);
     void note_stability(const StepEvent& event);
@@ -49,6 +52,7 @@ private:
     std::unique_ptr<Phase> phase_;
     std::unique_ptr<Integrator> integrator_;   ///< Of the drape; sewing has its own.
     StabilityUse stability_;
+    std::vector<CoarseStage> coarse_stages_;
     RunProgress progress_;
     double wall_before_ = 0;        ///< Of the runs that this one resumes [s].
     double last_checkpoint_ = 0;    ///< elapsed() then [s].

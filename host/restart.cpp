@@ -119,8 +119,8 @@ RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path,
                          "one left by this scene; run without --resume to start anew");
     RunProgress p;
     p.phase = word_of(checkpoint, "phase");
-    if (p.phase != "sew" && p.phase != "press" && p.phase != "drape")
-        throw InputError({path, 0, 0, "phase"}, "`" + p.phase + "`", "sew, press or drape");
+    if (p.phase != "sew" && p.phase != "press" && p.phase != "coarse" && p.phase != "drape")
+        throw InputError({path, 0, 0, "phase"}, "`" + p.phase + "`", "sew, press, coarse or drape");
     const auto& counts = array_of(checkpoint.integers, "counts", path, 8);
     const auto& clock = array_of(checkpoint.reals, "clock", path, 2);
     const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);

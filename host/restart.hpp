@@ -9,7 +9,7 @@ namespace selvage {
 
 /// Everything of a run that changes while it runs, beside the particles.
 struct RunProgress {
-    std::string phase;              ///< "sew", "press" or "drape".
+    std::string phase;              ///< "sew", "press", "coarse" or "drape".
     SewingProgress sewing;
     PressProgress pressing;
     DrapeProgress draping;

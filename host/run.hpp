@@ -10,7 +10,7 @@ struct RunOptions {
     std::string folder = "out";   ///< Where the results go; made if missing.
     bool resume = false;          ///< Go on from the folder's checkpoint.
     bool quiet = false;           ///< No progress on stderr.
-    bool profile = false;         ///< Print the cost of every kernel at the end.
+    bool profile = false;         ///< Print what every phase cost, and leave trace.json.
 };
 
 struct RunOutcome {

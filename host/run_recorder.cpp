@@ -60,7 +60,7 @@ RunRecorder::RunRecorder(const Scene& scene, const SceneModel& model, const RunO
     make_folder(folder_);
     if (!resume)
         for (const char* stale : {"summary.json", "run.h5", "run.xdmf", "sewing.h5", "sewing.xdmf", "final.obj",
-                                  "preview.png", "body.obj", "checkpoint.h5"})
+                                  "preview.png", "body.obj", "checkpoint.h5", "trace.json"})
             remove_file(folder_ + "/" + stale);
     remove_file(folder_ + "/summary.json");
     ProgressOptions progress;
@@ -124,6 +124,7 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
     const bool due = scene_.output.frames && event.dt > 0 && event.time >= next_frame_ - 1e-9;
     const bool moved = event.time > last_frame_ || relaxed_since_frame_;
     if (!trajectory_ || !(due || (force && moved))) return;
+    const TraceScope scope("write_frame");
     FrameScalars scalars;
     scalars.time = event.time > last_frame_ ? event.time : last_frame_ + interval;
     scalars.kinetic_energy = phase.newton().kinetic_energy();
@@ -167,6 +168,7 @@ void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topol
                        const std::vector<TriangleMesh>& bodies)
 {
     if (!scene_.output.picture) return;
+    const TraceScope scope("picture");
     PictureOptions options;
     options.width = scene_.output.picture_width;
     options.samples_per_axis = scene_.output.picture_samples;
@@ -177,6 +179,7 @@ void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topol
 void RunRecorder::count_intersections(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
                                       const std::vector<TriangleMesh>& bodies) const
 {
+    const TraceScope scope("count_intersections");
     const double spacing = grid_spacing(position_grid(scene_.output.precision));
     std::vector<Vec3> written;
     for (const Vec3& x : positions) written.push_back(written_position(x, spacing).cast<double>());
@@ -190,7 +193,8 @@ void RunRecorder::count_intersections(RunSummary& summary, const std::vector<Vec
 }
 
 void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
-                           const RunCounters& counters, const StabilityUse& stability, const Profile& profile,
+                           const RunCounters& counters, const StabilityUse& stability,
+                           const std::vector<CoarseStage>& coarse_stages, const Profile& profile,
                            double residual, double wall_seconds, const std::string& message)
 {
     const std::vector<Vec3> positions = phase.positions();
@@ -218,6 +222,9 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
     s.active = plan.active;
     for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
     s.stability = stability;
+    for (const CoarseStage& c : coarse_stages)
+        s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds,
+                                  c.intersections, c.used});
     s.residual = residual;
     s.energy.membrane = in_plane_energy(phase.newton());
     s.energy.bending = bending_energy(phase.newton());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/progressive.hpp"
 #include "host/run.hpp"
 #include "host/scene_model.hpp"
 #include "host/solver/plan.hpp"
@@ -50,7 +51,8 @@ public:
     /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
     /// @param time  at which the bodies are shown [s]
     void conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
-                  const RunCounters& counters, const StabilityUse& stability, const Profile& profile,
+                  const RunCounters& counters, const StabilityUse& stability,
+                  const std::vector<CoarseStage>& coarse_stages, const Profile& profile,
                   double residual, double wall_seconds, const std::string& message);
 
 private:

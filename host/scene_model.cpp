@@ -127,6 +127,7 @@ Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
 void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& model)
 {
     if (scene.solver.preconditioner == "block_jacobi") return;
+    const TraceScope scope("coarser_levels");
     for (int level = 1; level < 10; ++level) {
         const Cloth& finer = level == 1 ? model.cloth : model.coarser.back();
         if (int(finer.positions.size()) <= coarsest_vertices) return;
@@ -142,6 +143,7 @@ void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& 
 
 SceneModel build_scene_model(const Scene& scene)
 {
+    const TraceScope scope("assemble");
     SceneModel result;
     Pattern pattern;
     if (scene.has_garment()) pattern = read_pattern(scene);
@@ -155,7 +157,10 @@ SceneModel build_scene_model(const Scene& scene)
     result.warnings.insert(result.warnings.end(), odd.begin(), odd.end());
     result.sews = !result.model.cloth.seam_pairs.empty();
     result.edge_length = typical_edge(result.model.cloth);
-    if (!scene.has_garment()) add_ripple(result.model.cloth);
+    if (!scene.has_garment()) {
+        add_ripple(result.model.cloth);
+        for (Cloth& coarser : result.model.coarser) add_ripple(coarser);
+    }
     return result;
 }
 

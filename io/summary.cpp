@@ -43,6 +43,20 @@ Json panels_json(const RunSummary& summary)
     return list;
 }
 
+Json coarse_json(const RunSummary& summary)
+{
+    Json list = Json::array();
+    for (const CoarseUse& stage : summary.coarse_start)
+        list.push_back({{"vertices", stage.vertices},
+                        {"newton_iterations", stage.newton_iterations},
+                        {"linear_iterations", stage.linear_iterations},
+                        {"residual", number(stage.residual)},
+                        {"seconds", number(stage.seconds)},
+                        {"intersections", stage.intersections},
+                        {"used", stage.used}});
+    return list;
+}
+
 Json phases_json(const RunSummary& summary)
 {
     Json phases = Json::object();
@@ -103,6 +117,7 @@ std::string summary_json(const RunSummary& summary)
     json["stability"] = {{"asked_step_s", number(summary.stability.asked)},
                          {"limit_s", number(summary.stability.limit)},
                          {"taken_step_s", number(summary.stability.taken)}};
+    json["coarse_start"] = coarse_json(summary);
     json["phases"] = phases_json(summary);
     json["kernels"] = kernels_json(summary);
     json["active"] = summary.active;

@@ -32,6 +32,14 @@ struct PanelFit {
     double boundary_error;   ///< Relative change of boundary length.
 };
 
+/// One of the coarser cloths that were draped first.
+struct CoarseUse {
+    int vertices = -1, newton_iterations = -1, linear_iterations = -1;
+    double residual, seconds;
+    int intersections = 0;   ///< Of the shape carried over from it.
+    bool used = true;        ///< False: it diverged (no residual), or its shape passes through itself on the finer mesh.
+};
+
 /// How an explicit integrator's steps stood to its stability limit; NaN: no limit.
 struct StabilityUse {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -57,6 +65,7 @@ struct RunSummary {
     std::vector<std::string> warnings;
     std::int64_t peak_memory_bytes = -1;
     StabilityUse stability;
+    std::vector<CoarseUse> coarse_start;                   ///< Coarsest first; empty: the cloth itself fell from its start.
     double residual = unknown;                             ///< Relative force residual at the end.
     struct Energy {
         double membrane = unknown, bending = unknown, gravity = unknown, contact = unknown, kinetic = unknown;

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/solver/trace.hpp"
+
 namespace selvage {
 namespace {
 
@@ -23,6 +25,7 @@ const char* error_name(RTCError error)
 
 EmbreeDevice open_embree()
 {
+    const TraceScope scope("embree");
     EmbreeDevice device(rtcNewDevice(nullptr));
     if (!device)
         throw std::runtime_error(std::string("Embree could not start: ") + error_name(rtcGetDeviceError(nullptr)));

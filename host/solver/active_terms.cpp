@@ -1,32 +1,38 @@
 #include "host/solver/active_terms.hpp"
 
 #include "host/solver/launch.hpp"
+#include "host/solver/traffic.hpp"
 
 namespace selvage {
 
 ActiveTerms::ActiveTerms(State& state, const Params& params, Profile& profile)
     : state_(state), params_(params), profile_(profile)
 {
-    for (const Term& term : all_terms())
-        if (term.is_active(params)) (term.nature == Nature::conservative ? conservative_ : dissipative_).push_back(&term);
+    for (const Term& term : all_terms()) {
+        if (!term.is_active(params)) continue;
+        (term.nature == Nature::conservative ? conservative_ : dissipative_).push_back(&term);
+        const auto bytes = [&](TermPart part) { return std::int64_t(term_bytes(term, state, part)); };
+        traffic_[&term] = {bytes(TermPart::value), bytes(TermPart::force), bytes(TermPart::stiffness)};
+    }
 }
 
 void ActiveTerms::evaluate_forces(bool dissipative)
 {
+    const TraceScope scope("forces");
     clear_forces(state_);
     for (const Term* term : conservative_)
-        profile_.timed(term->name, term->item_count(state_.size),
-                       std::int64_t(term->item_count(state_.size)) * term->bytes_per_item,
+        profile_.timed(term->name, term->item_count(state_.size), traffic_.at(term).force,
                        [&] { term->add_force(state_, params_); });
     if (dissipative)
         for (const Term* term : dissipative_) term->add_force(state_, params_);
-    profile_.timed("gather_forces", state_.size.vertex_count, 0, [&] { gather_forces(state_); });
+    profile_.timed("gather_forces", state_.size.vertex_count, std::int64_t(gather_bytes(state_)), [&] { gather_forces(state_); });
 }
 
 void ActiveTerms::evaluate_stiffness(bool projected, double dissipative_scale)
 {
+    const TraceScope scope("stiffness");
     const auto add = [&](const Term* term) {
-        profile_.timed(std::string(term->name) + "_stiffness", term->item_count(state_.size), 0,
+        profile_.timed(std::string(term->name) + "_stiffness", term->item_count(state_.size), traffic_.at(term).stiffness,
                        [&] { term->add_stiffness(state_, params_, projected); });
     };
     clear_stiffness(state_);
@@ -48,10 +54,10 @@ void ActiveTerms::evaluate_drag()
 
 double ActiveTerms::energy()
 {
+    const TraceScope scope("energy");
     double total = 0;
     for (const Term* term : conservative_)
-        total += profile_.timed(term->name, term->item_count(state_.size),
-                                std::int64_t(term->item_count(state_.size)) * term->bytes_per_item,
+        total += profile_.timed(term->name, term->item_count(state_.size), traffic_.at(term).value,
                                 [&] { return term->energy(state_, params_); });
     return total;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -34,7 +35,12 @@ private:
     State& state_;
     const Params& params_;
     Profile& profile_;
+
+    struct Traffic {
+        std::int64_t value, force, stiffness;   ///< [bytes]
+    };
     std::vector<const Term*> conservative_, dissipative_;
+    std::map<const Term*, Traffic> traffic_;
 };
 
 }  // namespace selvage

@@ -24,9 +24,13 @@ struct BlockMatrix {
     int rows() const { return int(row_begin.size()) - 1; }
     std::size_t bytes() const { return block.size() * sizeof(linear) + (row_begin.size() + column.size()) * sizeof(int); }
 
+    /// What y = A x must move [bytes].
+    std::size_t product_bytes() const { return bytes() + 6 * std::size_t(rows()) * sizeof(linear); }
+
     /// y = A x.
     void multiply(const LinearVector& x, LinearVector& y) const
     {
+        const TraceScope scope("product", std::int64_t(product_bytes()), 2 * std::int64_t(block.size()));
         launch<block_row_product>(rows(),
                                   block_rows_args{row_begin.data(), column.data(), block.data(), x.data(), y.data()});
     }
@@ -65,6 +69,7 @@ public:
         launch<block_diagonal_product>(int(r.size() / 3), block_diagonal_args{inverse_.data(), r.data(), z.data()});
     }
     std::size_t bytes() const { return inverse_.size() * sizeof(linear); }
+    const linear* inverse() const { return inverse_.data(); }   ///< Nine entries per row.
 
 private:
     LinearVector inverse_;

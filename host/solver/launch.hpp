@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include "host/solver/trace.hpp"
+
 // Promises the compiler what every kernel guarantees: no item reads what another item writes.
 #ifdef __clang__
     #define INDEPENDENT_ITEMS _Pragma("clang loop vectorize(assume_safety)")
@@ -17,11 +19,12 @@ namespace selvage {
 /// Items of one task: small enough to balance, large enough to hide the task's cost.
 constexpr int items_per_task = 1024;
 
-/// Runs `body(item)` for every item in [0, count) on the TBB threads.
+/// Runs `body(item)` for every item in [0, count) on the TBB threads. Like all launches it shows in the trace in use.
 template <class Body>
 void for_each_item(int count, const Body& body)
 {
-    tbb::parallel_for(tbb::blocked_range<int>(0, count, items_per_task), [body](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, items_per_task), [body, mark = Trace::mark()](const auto& range) {
+        const TaskSpan span(mark);
         const int end = range.end();
         INDEPENDENT_ITEMS
         for (int item = range.begin(); item < end; ++item) body(item);
@@ -44,7 +47,8 @@ double sum_items(int count, const Body& body)
 {
     return tbb::parallel_deterministic_reduce(
         tbb::blocked_range<int>(0, count, items_per_task), 0.0,
-        [body](const auto& range, double sum) {
+        [body, mark = Trace::mark()](const auto& range, double sum) {
+            const TaskSpan span(mark);
             for (int item = range.begin(); item < range.end(); ++item) sum += body(item);
             return sum;
         },
@@ -64,7 +68,8 @@ double max_items(int count, const Body& body)
 {
     return tbb::parallel_reduce(
         tbb::blocked_range<int>(0, count, items_per_task), 0.0,
-        [body](const auto& range, double most) {
+        [body, mark = Trace::mark()](const auto& range, double most) {
+            const TaskSpan span(mark);
             for (int item = range.begin(); item < range.end(); ++item) most = std::max(most, double(body(item)));
             return most;
         },

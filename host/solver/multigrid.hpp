@@ -1,6 +1,7 @@
 #pragma once
 // Part of linear_device.cpp, which is built once per precision of `linear`: nothing here has external linkage.
 #include <cstdint>
+#include <string>
 
 #include <Eigen/SparseCholesky>
 
@@ -29,7 +30,8 @@ private:
         BlockMatrix matrix;                      // empty at the finest level: the solver's own is used
         BlockJacobi jacobi;
         double largest_eigenvalue = 0;           // of D^-1 A, estimated from below and grown a little
-        LinearVector x, b, r, z, d;
+        LinearVector x, next, b, d;              // next: what a pass makes of x, and residuals
+        std::string name;                        // in profiles
         // Interpolation from the next coarser level, and its transpose.
         std::vector<int> up_begin, up_column, down_begin, down_row;
         std::vector<linear> up_weight, down_weight;
@@ -43,8 +45,9 @@ private:
     static void coarse_matrix(const BlockMatrix& fine_matrix, const Level& fine, BlockMatrix& coarse);
     void factorise_coarsest();
     void estimate_eigenvalue(const BlockMatrix& matrix, Level& level);
-    void smooth(const BlockMatrix& matrix, Level& level, bool from_zero);
-    void cycle(const BlockMatrix& matrix, std::size_t at);
+    static block_smooth_args pass(const BlockMatrix& matrix, Level& level, const linear* b);
+    void smooth(const BlockMatrix& matrix, Level& level, const linear* b, bool from_zero, linear* result = nullptr);
+    void cycle(const BlockMatrix& matrix, std::size_t at, const linear* b, linear* result = nullptr);
     const BlockMatrix& matrix_of(const BlockMatrix& finest, std::size_t at) const
     {
         return at == 0 ? finest : levels_[at].matrix;
@@ -57,6 +60,7 @@ private:
 Multigrid::Multigrid(const BlockPattern& finest, const std::vector<char>& pinned, const ParticleTransfers& transfers)
 {
     levels_.resize(transfers.size() + 1);
+    for (std::size_t l = 0; l < levels_.size(); ++l) levels_[l].name = "level_" + std::to_string(l);
     for (std::size_t l = 0; l < transfers.size(); ++l) {
         const int coarse_rows = transfers[l].column.empty()
                                     ? 0
@@ -67,8 +71,8 @@ Multigrid::Multigrid(const BlockPattern& finest, const std::vector<char>& pinned
     }
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         const std::size_t size = 3 * std::size_t(l == 0 ? finest.rows() : levels_[l].matrix.rows());
-        for (LinearVector* v : {&levels_[l].x, &levels_[l].b, &levels_[l].r, &levels_[l].z, &levels_[l].d})
-            v->resize(size);
+        for (LinearVector* v : {&levels_[l].x, &levels_[l].next, &levels_[l].d}) v->resize(size);
+        if (l > 0) levels_[l].b.resize(size);   // the finest level reads the caller's
     }
 }
 
@@ -129,6 +133,7 @@ void Multigrid::plan_product(const std::vector<int>& row_begin, const std::vecto
 
 void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, BlockMatrix& coarse)
 {
+    const TraceScope scope("coarse_matrix");
     for_each_item(coarse.rows(), [&](int row) {
         linear* const first = coarse.block.data() + 9 * std::size_t(coarse.row_begin[row]);
         std::fill(first, coarse.block.data() + 9 * std::size_t(coarse.row_begin[row + 1]), linear(0));
@@ -153,6 +158,7 @@ void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, BlockMatr
 
 void Multigrid::factorise_coarsest()
 {
+    const TraceScope scope("factorise_coarsest");
     const BlockMatrix& a = levels_.back().matrix;
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(9 * a.column.size());
@@ -176,14 +182,15 @@ void Multigrid::factorise_coarsest()
 // resumed run would go another way.
 void Multigrid::estimate_eigenvalue(const BlockMatrix& matrix, Level& level)
 {
+    const TraceScope scope("eigenvalue");
     std::uint32_t seed = 1;
     for (linear& v : level.x) v = linear(int((seed = seed * 1664525u + 1013904223u) >> 16) % 2001 - 1000) / 1000;
     double growth = 1;
     for (int round = 0; round < 7; ++round) {
         const double size = std::sqrt(dot(level.x, level.x));
         for_each_item(int(level.x.size()), [v = level.x.data(), s = linear(1 / size)](int i) { v[i] *= s; });
-        matrix.multiply(level.x, level.r);
-        level.jacobi.apply(level.r, level.x);
+        matrix.multiply(level.x, level.next);
+        level.jacobi.apply(level.next, level.x);
         growth = std::sqrt(dot(level.x, level.x));
     }
     level.largest_eigenvalue = 1.15 * growth;
@@ -191,6 +198,7 @@ void Multigrid::estimate_eigenvalue(const BlockMatrix& matrix, Level& level)
 
 void Multigrid::build(const BlockMatrix& finest)
 {
+    const TraceScope scope("multigrid_build");
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         if (l + 1 == levels_.size()) {
             factorise_coarsest();
@@ -203,75 +211,73 @@ void Multigrid::build(const BlockMatrix& finest)
     }
 }
 
-// Two Chebyshev steps on the upper part of the spectrum of D^-1 A.
-void Multigrid::smooth(const BlockMatrix& matrix, Level& level, bool from_zero)
+block_smooth_args Multigrid::pass(const BlockMatrix& matrix, Level& level, const linear* b)
 {
-    const double high = level.largest_eigenvalue, low = high / 6, middle = 0.5 * (high + low), radius = 0.5 * (high - low);
-    const double sigma = middle / radius;
-    const int size = int(level.x.size());
-    linear *x = level.x.data(), *d = level.d.data(), *r = level.r.data();
-    const linear *b = level.b.data(), *z = level.z.data();
-    double rho = 1 / sigma;
-    for (int step = 0; step < 2; ++step) {
-        if (step == 0 && from_zero) {
-            level.jacobi.apply(level.b, level.z);
-        } else {
-            matrix.multiply(level.x, level.r);
-            for_each_item(size, [r, b](int i) { r[i] = b[i] - r[i]; });
-            level.jacobi.apply(level.r, level.z);
-        }
-        const double next = step == 0 ? 0 : 1 / (2 * sigma - rho);
-        const linear keep = step == 0 ? 0 : linear(next * rho), gain = linear(step == 0 ? 1 / middle : 2 * next / radius);
-        if (step > 0) rho = next;
-        const bool fresh = step == 0 && from_zero;
-        for_each_item(size, [=](int i) {
-            d[i] = (step == 0 ? 0 : keep * d[i]) + gain * z[i];
-            x[i] = fresh ? d[i] : x[i] + d[i];
-        });
-    }
+    return {matrix.row_begin.data(), matrix.column.data(), matrix.block.data(), level.jacobi.inverse(),
+            b, level.x.data(), level.d.data(), level.next.data(), 0, 0};
 }
 
-void Multigrid::cycle(const BlockMatrix& matrix, std::size_t at)
+// Two Chebyshev steps on the upper part of the spectrum of D^-1 A; the result goes to the level's x unless told.
+void Multigrid::smooth(const BlockMatrix& matrix, Level& level, const linear* b, bool from_zero, linear* result)
+{
+    const double high = level.largest_eigenvalue, low = high / 6, middle = 0.5 * (high + low), radius = 0.5 * (high - low);
+    const double sigma = middle / radius, rho = 1 / (2 * sigma - 1 / sigma);
+    const TraceScope scope("smooth", std::int64_t((from_zero ? 1 : 2) * matrix.product_bytes()),
+                           (from_zero ? 2 : 4) * std::int64_t(matrix.block.size()));
+    block_smooth_args first = pass(matrix, level, b);
+    first.gain = linear(1 / middle);
+    if (from_zero)
+        launch<block_row_smooth_zero>(matrix.rows(), first);
+    else
+        launch<block_row_smooth>(matrix.rows(), first);
+    level.x.swap(level.next);
+    block_smooth_args second = pass(matrix, level, b);
+    second.keep = linear(rho / sigma);
+    second.gain = linear(2 * rho / radius);
+    if (result) second.next = result;
+    launch<block_row_smooth>(matrix.rows(), second);
+    if (!result) level.x.swap(level.next);
+}
+
+// Leaves the correction in the level's x, or where it is told to.
+void Multigrid::cycle(const BlockMatrix& matrix, std::size_t at, const linear* b, linear* result)
 {
     Level& level = levels_[at];
+    const TraceScope scope(level.name);
     if (at + 1 == levels_.size()) {
-        const Eigen::Map<const Eigen::Matrix<linear, Eigen::Dynamic, 1>> b(level.b.data(), Eigen::Index(level.b.size()));
-        const Eigen::VectorXd x = coarsest_.solve(b.template cast<double>());
-        for (Eigen::Index i = 0; i < x.size(); ++i) level.x[std::size_t(i)] = linear(x[i]);
+        const Eigen::Map<const Eigen::Matrix<linear, Eigen::Dynamic, 1>> right(b, Eigen::Index(level.x.size()));
+        const Eigen::VectorXd x = coarsest_.solve(right.template cast<double>());
+        for (Eigen::Index i = 0; i < x.size(); ++i) (result ? result : level.x.data())[i] = linear(x[i]);
         return;
     }
     Level& coarse = levels_[at + 1];
-    smooth(matrix, level, true);
-    matrix.multiply(level.x, level.r);
-    for_each_item(int(coarse.b.size() / 3), [&level, to = coarse.b.data()](int row) {
+    smooth(matrix, level, b, true);
+    launch<block_row_residual>(matrix.rows(), pass(matrix, level, b));
+    for_each_item(int(coarse.b.size() / 3), [&level, from = level.next.data(), to = coarse.b.data()](int row) {
         linear sum[3] = {0, 0, 0};
         for (int k = level.down_begin[row]; k < level.down_begin[row + 1]; ++k)
-            for (int c = 0; c < 3; ++c) {
-                const int i = 3 * level.down_row[k] + c;
-                sum[c] += level.down_weight[k] * (level.b[i] - level.r[i]);
-            }
+            for (int c = 0; c < 3; ++c) sum[c] += level.down_weight[k] * from[3 * level.down_row[k] + c];
         for (int c = 0; c < 3; ++c) to[3 * row + c] = sum[c];
     });
-    cycle(coarse.matrix, at + 1);
+    cycle(coarse.matrix, at + 1, coarse.b.data());
     for_each_item(int(level.x.size() / 3), [&level, from = coarse.x.data()](int row) {
         for (int k = level.up_begin[row]; k < level.up_begin[row + 1]; ++k)
             for (int c = 0; c < 3; ++c) level.x[3 * row + c] += level.up_weight[k] * from[3 * level.up_column[k] + c];
     });
-    smooth(matrix, level, false);
+    smooth(matrix, level, b, false, result);
 }
 
 void Multigrid::apply(const BlockMatrix& finest, const LinearVector& r, LinearVector& z)
 {
-    levels_[0].b = r;
-    cycle(finest, 0);
-    z = levels_[0].x;
+    const TraceScope scope("multigrid_cycle");
+    cycle(finest, 0, r.data(), z.data());
 }
 
 std::size_t Multigrid::bytes() const
 {
     std::size_t total = 0;
     for (const Level& level : levels_)
-        total += level.matrix.bytes() + level.jacobi.bytes() + 6 * level.x.size() * sizeof(linear) +
+        total += level.matrix.bytes() + level.jacobi.bytes() + 4 * level.x.size() * sizeof(linear) +
                  (level.up_column.size() + level.down_row.size()) * (sizeof(int) + sizeof(linear)) +
                  level.plan.size() * sizeof(int) + level.plan_begin.size() * sizeof(std::size_t);
     return total;

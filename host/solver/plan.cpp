@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/progressive.hpp"
 #include "host/solver/springs.hpp"
 
 namespace selvage {
@@ -192,6 +193,12 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
         plan.active.push_back("embree");
     else
         plan.skipped.push_back({"embree", queries ? "all bodies have closed forms" : "no body is queried"});
+    const std::string no_coarse_start = why_no_coarse_start(scene, model);
+    plan.coarse_start = no_coarse_start.empty();
+    if (plan.coarse_start)
+        plan.active.push_back("coarse_start");
+    else
+        plan.skipped.push_back({"coarse_start", no_coarse_start});
     if (!model.sews) plan.skipped.push_back({"sew", "there are no seams"});
     if (scene.wind.velocity.isZero()) plan.skipped.push_back({"wind", "wind.velocity is zero"});
     const double body_end = bodies_end(model.model.bodies);

@@ -34,6 +34,7 @@ struct RunPlan {
     std::vector<std::string> active;        ///< Terms and devices in use in any phase.
     std::vector<SkippedFeature> skipped;
     bool embree = false;                    ///< A ray tracing device is made.
+    bool coarse_start = false;              ///< Coarser cloths are draped first.
     std::size_t peak_bytes = 0;             ///< Of the phase that needs most, with meshes and queries.
 };
 

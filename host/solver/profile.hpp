@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/solver/trace.hpp"
+
 namespace selvage {
 
 /// Time and traffic of one kernel or stage over a run.
@@ -13,17 +15,16 @@ struct KernelRecord {
     std::int64_t calls = 0;
     double seconds = 0;
     std::int64_t items = 0;   ///< Over all calls.
-    std::int64_t bytes = 0;   ///< That its fields occupy, over all calls.
+    std::int64_t bytes = 0;   ///< That it must move, over all calls; 0: not known.
 };
 
-/// Collects what the stages of a run cost. A handful of clock reads per launch: always on.
+/// Collects what the stages of a run cost. A handful of clock reads per launch: always on. What is timed is also a
+/// scope of the trace in use.
 class Profile {
 public:
     /// Adds one call.
     void add(std::string_view name, double seconds, std::int64_t items, std::int64_t bytes);
     const std::vector<KernelRecord>& records() const { return records_; }
-    /// The records as a table, the dearest first.
-    std::string table() const;
 
     /// Runs `body` and records it; returns what it returns.
     template <class Body>
@@ -40,6 +41,7 @@ public:
                             items, bytes);
             }
         } stop{*this, name, items, bytes};
+        const TraceScope scope(name, bytes);
         return body();
     }
 

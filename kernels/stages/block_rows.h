@@ -46,3 +46,71 @@ KERNEL_FN void block_diagonal_product(int row, const block_diagonal_args* a)
     y[1] = y1;
     y[2] = y2;
 }
+
+// One step of a smoother over block Jacobi, for one row:
+//     d' = keep d + gain D^-1 (b - A x),   x' = x + d'
+// In one pass, x' apart from x: four vectors less to move than with a pass for each operation.
+typedef struct {
+    GLOBAL const int* RESTRICT row_begin;
+    GLOBAL const int* RESTRICT column;
+    GLOBAL const linear* RESTRICT block;
+    GLOBAL const linear* RESTRICT inverse;   // one block per vertex
+    GLOBAL const linear* RESTRICT b;
+    GLOBAL const linear* RESTRICT x;
+    GLOBAL linear* RESTRICT d;
+    GLOBAL linear* RESTRICT next;
+    linear keep, gain;
+} block_smooth_args;
+
+KERNEL_FN void block_row_smooth(int row, const block_smooth_args* a)
+{
+    linear r0 = a->b[3 * row], r1 = a->b[3 * row + 1], r2 = a->b[3 * row + 2];
+    int end = a->row_begin[row + 1];
+    for (int k = a->row_begin[row]; k < end; ++k) {
+        GLOBAL const linear* m = a->block + 9 * k;
+        GLOBAL const linear* x = a->x + 3 * a->column[k];
+        r0 -= m[0] * x[0] + m[1] * x[1] + m[2] * x[2];
+        r1 -= m[3] * x[0] + m[4] * x[1] + m[5] * x[2];
+        r2 -= m[6] * x[0] + m[7] * x[1] + m[8] * x[2];
+    }
+    GLOBAL const linear* m = a->inverse + 9 * row;
+    linear z[3];
+    z[0] = m[0] * r0 + m[1] * r1 + m[2] * r2;
+    z[1] = m[3] * r0 + m[4] * r1 + m[5] * r2;
+    z[2] = m[6] * r0 + m[7] * r1 + m[8] * r2;
+    for (int c = 0; c < 3; ++c) {
+        int i = 3 * row + c;
+        linear d = a->keep * a->d[i] + a->gain * z[c];
+        a->d[i] = d;
+        a->next[i] = a->x[i] + d;
+    }
+}
+
+// The same from x = 0 and d = 0, where no product is needed.
+KERNEL_FN void block_row_smooth_zero(int row, const block_smooth_args* a)
+{
+    GLOBAL const linear* m = a->inverse + 9 * row;
+    GLOBAL const linear* b = a->b + 3 * row;
+    for (int c = 0; c < 3; ++c) {
+        linear d = a->gain * (m[3 * c] * b[0] + m[3 * c + 1] * b[1] + m[3 * c + 2] * b[2]);
+        a->d[3 * row + c] = d;
+        a->next[3 * row + c] = d;
+    }
+}
+
+// next = b - A x for one row.
+KERNEL_FN void block_row_residual(int row, const block_smooth_args* a)
+{
+    linear r0 = a->b[3 * row], r1 = a->b[3 * row + 1], r2 = a->b[3 * row + 2];
+    int end = a->row_begin[row + 1];
+    for (int k = a->row_begin[row]; k < end; ++k) {
+        GLOBAL const linear* m = a->block + 9 * k;
+        GLOBAL const linear* x = a->x + 3 * a->column[k];
+        r0 -= m[0] * x[0] + m[1] * x[1] + m[2] * x[2];
+        r1 -= m[3] * x[0] + m[4] * x[1] + m[5] * x[2];
+        r2 -= m[6] * x[0] + m[7] * x[1] + m[8] * x[2];
+    }
+    a->next[3 * row] = r0;
+    a->next[3 * row + 1] = r1;
+    a->next[3 * row + 2] = r2;
+}

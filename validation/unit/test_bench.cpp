@@ -9,9 +9,13 @@
 
 #include "bench/bench.hpp"
 #include "bench/kernel_cloth.hpp"
-#include "bench/kernel_traffic.hpp"
+#include "bench/scaling.hpp"
+#include "bench/skip_cases.hpp"
+#include "host/solver/traffic.hpp"
 #include "io/errors.hpp"
+#include "io/scene.hpp"
 #include "io/version.hpp"
+#include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;
 
@@ -151,4 +155,43 @@ TEST_CASE("the cloth of the kernel benchmark gives every term and stage work to 
     cloth.state.pos[0] += 0.1;
     cloth.reset();
     CHECK(cloth.state.pos == before);
+}
+
+TEST_CASE("growth exponents are the slopes of power laws, by least squares", "[bench]")
+{
+    CHECK(*growth_exponent({10, 100, 1000}, {3, 300, 30000}) == Approx(2));
+    CHECK(*growth_exponent({1, 4, 16}, {2, 2, 2}) == Approx(0).margin(1e-12));
+    // One point off its line by a factor 1.1 at an end moves the slope of three by half of its logarithm.
+    CHECK(*growth_exponent({1, 10, 100}, {1, 10, 110}) == Approx(1 + 0.5 * std::log10(1.1)));
+    CHECK_FALSE(growth_exponent({5}, {1}));
+    CHECK_FALSE(growth_exponent({5, 5}, {1, 2}));
+}
+
+TEST_CASE("bad options of the scaling and skip benchmarks are input errors", "[bench]")
+{
+    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+             {"--scene", "hangin"}, {"--max-vertices", "10"}, {"--min-vertices", "5000", "--max-vertices", "1000"},
+             {"--threads", "0"}, {"--max-seconds", "0"}, {"--vertices", "100"}}) {
+        INFO(options.front() << ' ' << options.back());
+        CHECK_THROWS_AS(run_bench("scaling", true, options), InputError);
+    }
+    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+             {"--resolution", "2"}, {"--repeats", "0"}, {"--until", "-1"}, {"--repeat", "3"}}) {
+        INFO(options.front() << ' ' << options.back());
+        CHECK_THROWS_AS(run_bench("skip", true, options), InputError);
+    }
+}
+
+TEST_CASE("the cases of the skip benchmark are scenes that this version reads, absent ones first", "[bench]")
+{
+    const ScratchFolder folder;
+    const std::vector<SkipCase> cases = skip_cases(9, 0.1, folder.path("").substr(0, folder.path("").size() - 1));
+    CHECK(cases.size() > 20);
+    std::string feature;
+    for (const SkipCase& one : cases) {
+        INFO(one.feature << ' ' << one.state);
+        CHECK((one.feature == feature || one.state == "absent"));
+        feature = one.feature;
+        CHECK_NOTHROW(read_scene(one.scene, {}));
+    }
 }

@@ -1,4 +1,4 @@
-#include "bench/copy_bandwidth.hpp"
+#include "host/copy_bandwidth.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -6,29 +6,22 @@
 #include <cstring>
 #include <memory>
 
-#include <benchmark/benchmark.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 namespace selvage {
 namespace {
 
 constexpr std::size_t megabyte = std::size_t(1) << 20;
-constexpr int passes = 8;
 
 std::size_t last_level_cache_bytes()
 {
-    const benchmark::CPUInfo& cpu = benchmark::CPUInfo::Get();
-    int deepest = 0;
-    std::size_t bytes = 0;
-    for (const auto& cache : cpu.caches) {
-        const int instances = std::max(1, cpu.num_cpus / std::max(1, cache.num_sharing));
-        if (cache.level > deepest) bytes = 0;
-        deepest = std::max(deepest, cache.level);
-        if (cache.level == deepest) bytes = std::max(bytes, std::size_t(cache.size) * std::size_t(instances));
-    }
-    return bytes;
+    long bytes = 0;
+    for (int level : {_SC_LEVEL2_CACHE_SIZE, _SC_LEVEL3_CACHE_SIZE, _SC_LEVEL4_CACHE_SIZE})
+        bytes = std::max(bytes, sysconf(level));
+    return std::size_t(bytes);
 }
 
 // One slice per thread: blocks this large are copied with stores that bypass the caches, so that the figure is not
@@ -49,9 +42,9 @@ void for_each_slice(std::size_t bytes, int slices, const Body& body)
 
 }  // namespace
 
-double measure_copy_bandwidth()
+double measure_copy_bandwidth(std::size_t most_bytes, int passes)
 {
-    const std::size_t bytes = std::clamp(4 * last_level_cache_bytes(), 128 * megabyte, 1024 * megabyte);
+    const std::size_t bytes = std::min(std::max(4 * last_level_cache_bytes(), 128 * megabyte), most_bytes);
     const int threads = tbb::this_task_arena::max_concurrency();
     const std::unique_ptr<std::byte[]> from(new std::byte[bytes]), to(new std::byte[bytes]);
     // Every page is touched first by the thread that will copy it.
@@ -65,7 +58,7 @@ double measure_copy_bandwidth()
         for_each_slice(bytes, threads, [&](std::size_t begin, std::size_t length) {
             std::memcpy(to.get() + begin, from.get() + begin, length);
         });
-        benchmark::ClobberMemory();
+        asm volatile("" : : "r"(to.get()) : "memory");   // the copy may not be left out
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         fastest = std::max(fastest, 2.0 * double(bytes) / seconds);
     }

@@ -1,4 +1,4 @@
-#include "bench/kernel_traffic.hpp"
+#include "host/solver/traffic.hpp"
 
 #include <algorithm>
 #include <initializer_list>
@@ -102,17 +102,17 @@ BlockPattern coarse_pattern(const BlockPattern& fine, const Transfer& up)
     return pattern;
 }
 
-// Two smoothing steps before and after, each a block Jacobi step on a residual (the first needs no product), an update
-// of the direction and one of x; the residual that goes down; restriction and interpolation.
+// Two smoothing steps before and after, the first of which needs no product: b, x, d and the inverse blocks are read,
+// d and the new x written; the residual that goes down; restriction and interpolation.
 std::size_t level_bytes(const BlockPattern& pattern, const Transfer& up, const BlockPattern& coarse)
 {
-    const std::size_t vector = vector_bytes(pattern);
-    const std::size_t products = 4 * product_bytes(pattern), smoothers = 4 * block_jacobi_bytes(pattern);
-    const std::size_t residuals = 3 * 3 * vector, updates = (3 + 5 + 4 + 5) * vector;
+    const std::size_t vector = vector_bytes(pattern), matrix = matrix_bytes(pattern);
+    const std::size_t smoothing = 3 * (matrix + (3 + 5) * vector) + (3 + 3) * vector;
+    const std::size_t residual = matrix + 3 * vector;
     const std::size_t interpolation = entry_count(up) * (sizeof(double) + sizeof(int));
     const std::size_t lists = (pattern.row_begin.size() + coarse.row_begin.size()) * sizeof(int);
-    const std::size_t transfers = 2 * interpolation + lists + (2 + 2) * vector + 2 * vector_bytes(coarse);
-    return products + smoothers + residuals + updates + transfers;
+    const std::size_t transfers = 2 * interpolation + lists + (1 + 2) * vector + 2 * vector_bytes(coarse);
+    return smoothing + residual + transfers;
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ std::size_t update_bytes(const BlockPattern& pattern) { return 6 * vector_bytes(
 std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleTransfers& transfers)
 {
     if (transfers.empty()) return block_jacobi_bytes(finest);
-    std::size_t total = 4 * vector_bytes(finest);   // r is copied in, z out
+    std::size_t total = 0;
     BlockPattern fine = finest;
     for (const Transfer& transfer : transfers) {
         BlockPattern coarse = coarse_pattern(fine, transfer);
