@@ -8,7 +8,7 @@
 #include "host/solver/integrator.hpp"
 #include "host/solver/phase.hpp"
 #include "host/solver/step_control.hpp"
-#include "kernels/terms/body_contact.h"
+#include "kernels/barrier.h"
 #include "validation/cases/cases.hpp"
 #include "validation/cases/reference.hpp"
 #include "validation/cases/specimen.hpp"
