@@ -43,13 +43,15 @@ Cloth sheet_at(const Scene& scene, int index, int resolution)
     SheetScene sheet = scene.sheets[index];
     sheet.resolution = resolution;
     const std::string key = "sheet[" + std::to_string(index) + "]";
+    PinsScene pins = scene.pins;
+    if (resolution != scene.sheets[index].resolution) pins.vertices.clear();   // indices are those of the finest mesh
     Cloth cloth;
     if (sheet.shape == "mesh") {
         std::vector<Vec2> texture;
         const TriangleMesh mesh = read_obj(scene.resolve(sheet.mesh), sheet.unit, sheet.up_axis, &texture);
-        cloth = sheet_from_mesh(mesh, texture, sheet, scene.pins, sheet.mesh, key);
+        cloth = sheet_from_mesh(mesh, texture, sheet, pins, sheet.mesh, key);
     } else {
-        cloth = make_sheet(sheet, scene.pins, scene.file, key);
+        cloth = make_sheet(sheet, pins, scene.file, key);
     }
     add_pin_motions(cloth, scene.pin_motions, scene.file);
     return cloth;
