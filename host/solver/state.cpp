@@ -26,7 +26,7 @@ void State::set_pairs(int count)
     size.pair_slot_count = 4 * count;
     if (padded_stride(count) > size.pair_stride) {   // with room to spare: contacts come in ones and twos
         size.pair_stride = padded_stride(count + count / 4);
-        size.pair_slot_stride = padded_stride(4 * (count + count / 4));
+        size.pair_slot_stride = padded_stride(4 * size.pair_stride);
     }
     const auto comes_and_goes = [](std::string_view per) { return per == "pair" || per == "pair_slot"; };
 #define FIELD(type, name, per, components, unit, meaning)               \
