@@ -13,7 +13,7 @@ namespace {
 
 /// The parts of a scene that features change.
 struct SceneParts {
-    std::string fabric, bodies, tables, output, solver, contact = "self = false";
+    std::string fabric, bodies, tables, output, solver, contact = "self = false", weft = "stretch_weft = 1000";
 };
 
 std::string scene_text(const SceneParts& parts, int resolution, double until)
@@ -28,7 +28,7 @@ center = [0, 0, 1]
 source = "a plain test material"
 areal_density = 0.2
 thickness = 0.0004
-stretch_weft = 1000
+{}
 stretch_warp = 1000
 shear = 100
 bending_weft = 1e-5
@@ -46,7 +46,8 @@ until = {}
 [output]
 picture_width = 800
 {})",
-                       resolution, parts.fabric, parts.bodies, parts.tables, parts.contact, until, parts.solver, parts.output);
+                       resolution, parts.weft, parts.fabric, parts.bodies, parts.tables, parts.contact, until, parts.solver,
+                       parts.output);
 }
 
 constexpr const char* quiet_output = "picture = false\nframes = false\n";
@@ -98,7 +99,7 @@ std::vector<Feature> features(const std::string& folder)
          },
          "bending_hysteresis"},
         {"curves", nothing, [curve](SceneParts& parts) { parts.tables = "[fabric.other]\nbase = \"cotton\"\n" + curve; },
-         with_fabric(curve), "curved_membrane"},
+         [curve](SceneParts& parts) { parts.weft = curve; }, "curved_membrane"},
         {"seams", nothing, [](SceneParts& parts) { parts.tables = "[seams]\nstiffness = 4e4\n"; }, {}, "seam"},
         {"self-contact", nothing, [](SceneParts& parts) { parts.contact = "self = true"; }, {}, "cloth_contact_pairs"},
         {"frames", nothing, [](SceneParts& parts) { parts.output = "picture = false\n"; parts.solver = "frame_rate = 0.1\n"; },

@@ -63,9 +63,10 @@ std::string why_no_coarse_start(const Scene& scene, const SceneModel& model)
     if (!scene.solver.progressive) return "solver.progressive is false";
     if (scene.solver.until != "equilibrium") return "the run shows a motion (solver.until)";
     if (integrator != "implicit_euler" && integrator != "static") return "solver.integrator asks for another way to rest";
-    if (scene.solver.load_steps > 1) return "the weight grows in steps (solver.load_steps)";
+    if (scene.moves()) return "held vertices or bodies move, and the cloth has to follow";
     if (scene.has_garment()) return "a garment is sewn first";
     if (!model.model.bodies.empty()) return "there are bodies, and what the cloth meets first decides where it lies";
+    if (scene.solver.load_steps > 1) return "the weight grows in steps (solver.load_steps)";
     if (scene.bending.hysteresis) return "bending hysteresis remembers the way (bending.hysteresis)";
     if (model.model.coarser.empty()) return "there are no coarser meshes of the cloth";
     return "";

@@ -151,7 +151,8 @@ SceneModel build_scene_model(const Scene& scene)
     if (scene.has_garment()) pattern = read_pattern(scene);
     for (int i = 0; i < int(scene.sheets.size()); ++i) check_sheet_size(scene, i);
     result.model.cloth = cloth_at_level(scene, pattern, 0);
-    result.model.fabrics = scene.fabrics;
+    // A fabric that no panel is made of must not decide which terms run.
+    for (const ClothPanel& panel : result.model.cloth.panels) result.model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
     result.model.bodies = build_bodies(scene);
     add_coarser_levels(scene, pattern, result.model);
     result.warnings = pattern.warnings;

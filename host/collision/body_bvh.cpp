@@ -8,6 +8,8 @@
 
 #include <embree3/rtcore.h>
 
+#include "host/solver/trace.hpp"
+
 namespace selvage {
 namespace {
 
@@ -79,8 +81,10 @@ bool touches(const BodySurface& surface, int triangle, const Box& reach)
 
 }  // namespace
 
-EmbreeDevice::EmbreeDevice() : handle_(rtcNewDevice(nullptr))
+EmbreeDevice::EmbreeDevice()
 {
+    const TraceScope scope("embree");
+    handle_ = rtcNewDevice(nullptr);
     if (!handle_) throw std::runtime_error("Embree does not start on this machine");
 }
 

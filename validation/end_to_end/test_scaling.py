@@ -10,7 +10,7 @@ PROGRAM = os.environ.get("SELVAGE", "build/selvage")
 
 
 def bench(suite, *options):
-    result = subprocess.run([PROGRAM, "bench", suite, "--json", "--", *options], capture_output=True, text=True, timeout=300)
+    result = subprocess.run([PROGRAM, "bench", suite, "--json", "--", *options], capture_output=True, text=True, timeout=500)
     assert result.returncode == 0, result.stderr
     return json.loads(result.stdout)
 
@@ -38,7 +38,7 @@ class Scaling(unittest.TestCase):
 
 class Skip(unittest.TestCase):
     def test_what_is_absent_or_idle_is_neither_launched_nor_initialised(self):
-        runs = bench("skip", "--resolution", "17", "--repeats", "1", "--until", "0.1")["benchmarks"]
+        runs = bench("skip", "--resolution", "17", "--repeats", "1", "--until", "0.3")["benchmarks"]
         states = {}
         for run in runs:
             feature, state = run["name"].split("/")
