@@ -197,6 +197,19 @@ PhaseEnd DrapeRun::run_phases()
     return timed(run_draping());
 }
 
+// Cloth that started with intersections has come to rest only when none is left.
+RunOutcome DrapeRun::conclude_at_rest()
+{
+    ClothContact* cloth = phase_->cloth_contact();
+    if (!cloth) return conclude(RunStatus::converged, "");
+    cloth->begin(phase_->state());
+    const int left = cloth->counts().tangles + cloth->counts().inside;
+    if (left == 0) return conclude(RunStatus::converged, "");
+    return conclude(RunStatus::time_limit,
+                    fmt::format("at rest, but {} pairs of triangles intersect and {} vertices are inside a body; they did so "
+                                "at the start: `selvage check` shows where", cloth->counts().tangles, cloth->counts().inside));
+}
+
 RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
 {
     const TraceScope scope("conclude");
@@ -249,7 +262,7 @@ RunOutcome DrapeRun::execute()
         if (end == PhaseEnd::stopped) return conclude_stopped();
         if (end == PhaseEnd::time_limit) return conclude(RunStatus::time_limit, why_not_done());
         const bool timed = scene_.solver.until != "equilibrium";
-        return conclude(timed ? RunStatus::finished : RunStatus::converged, "");
+        return timed ? conclude(RunStatus::finished, "") : conclude_at_rest();
     } catch (const UnstableStepError& error) {
         throw InputError(scene_.place("solver.step"), fmt::format("{:.6g} s", scene_.solver.step),
                          fmt::format("at most the stability limit of {}, {:.3g} s at {:.3g} s of simulated time, as "

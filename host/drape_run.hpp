@@ -36,6 +36,7 @@ private:
     bool after_step(const StepEvent& event);
     void note_stability(const StepEvent& event);
     double elapsed() const;
+    RunOutcome conclude_at_rest();
     RunOutcome conclude(RunStatus status, const std::string& message);
     RunOutcome conclude_stopped();
     std::string why_not_done() const;

@@ -159,6 +159,7 @@ void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase
     const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
     phase.params().seam.stiffness = sewing[6];
     phase.params().seam.force_limit = sewing[7];
+    phase.look_around();
 }
 
 void load_history(const Checkpoint& checkpoint, const std::string& path, Integrator& integrator)

@@ -35,3 +35,11 @@ KERNEL_FN barrier_jet barrier_at(real s)
     b.curvature = REAL(0);
     return b;
 }
+
+// The barrier of pairs, which never touch: without the continuation no force gets the better of it.
+KERNEL_FN barrier_jet open_barrier_at(real s)
+{
+    barrier_jet b;
+    b.value = b.slope = b.curvature = REAL(0);
+    return s >= REAL(1) ? b : log_barrier(fmax(s, REAL(1e-9)));
+}

@@ -101,13 +101,7 @@ bool ClothContact::may_pass(const PairCandidate& candidate) const
 
 void ClothContact::cover(const State& state, const Way& way)
 {
-    const int n = state.size.vertex_count, vs = state.size.vertex_stride;
-    if (!bodies_.empty() && !state.contact_offset.empty())
-        for_each_item(n, [&, this](int v) {
-            double along = -state.contact_offset[v];
-            for (int c = 0; c < 3; ++c) along += state.contact_normal[c * vs + v] * state.pos[c * vs + v];
-            inside_[v] = along < 0;
-        });
+    const int vs = state.size.vertex_stride;
     const bool afresh = tree_.cover(state.pos.data(), way.move ? way.move->data() : nullptr, vs,
                                     {body_now_, way.body_move, body_version_}, gap_, body_gap_);
     look_at_all(state, way, afresh);
@@ -260,8 +254,26 @@ bool ClothContact::hold_back(std::vector<real>& move, const Way& way, bool first
 void ClothContact::begin(State& state)
 {
     state.set_body_points(int(body_now_.size()));
+    std::fill(inside_.begin(), inside_.end(), 1);
+    find_inside(state);
     find_tangles(state);
     show_bodies(state);
+}
+
+// Only cloth that starts inside a body may pass its surface, on its way out.
+void ClothContact::find_inside(const State& state)
+{
+    if (bodies_.empty() || state.contact_offset.empty()) {
+        std::fill(inside_.begin(), inside_.end(), 0);
+        return;
+    }
+    const int vs = state.size.vertex_stride;
+    counts_.inside = int(sum_items(state.size.vertex_count, [&, this](int v) {
+        double along = -state.contact_offset[v];
+        for (int c = 0; c < 3; ++c) along += state.contact_normal[c * vs + v] * state.pos[c * vs + v];
+        inside_[v] = inside_[v] && along < 0;
+        return inside_[v] ? 1.0 : 0.0;
+    }));
 }
 
 void ClothContact::find_tangles(const State& state)

@@ -16,6 +16,7 @@ namespace selvage {
 struct ClothContactCounts {
     long long looks = 0;            ///< Times that pairs were looked for.
     long long shortened = 0;        ///< Moves that were cut since something would have been passed through.
+    int inside = 0;                 ///< Vertices that started inside a body and are still there.
     int tangles = 0;                ///< Pairs of triangles that intersect and may pass through each other.
 };
 
@@ -105,6 +106,7 @@ private:
     void remember(const State& state);
     double area_of(const PairCandidate& candidate, const Way& way) const;
     void find_tangles(const State& state);
+    void find_inside(const State& state);
     void show_bodies(State& state) const;
 
     double gap_, body_gap_;

@@ -157,6 +157,7 @@ void ClothContact::remember(const State& state)
 void ClothContact::settle(State& state, const Params& params)
 {
     if (counts_.tangles > 0) find_tangles(state);
+    if (counts_.inside > 0) find_inside(state);
     if (state.pair_limit.empty()) return;
     const settle_pairs_args args = settling(state, params);
     launch<pair_frame>(state.size.pair_count, args.contact);

@@ -227,7 +227,6 @@ bool Newton::search_line(double slope, const NewtonOptions& options)
 NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
 {
     NewtonReport report;
-    double gained = 0;
     for (;; ++report.iterations) {
         if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
         const bool held_up = cloth_ && cloth_->advance_held(state_);
@@ -240,8 +239,7 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
         const double slope = search_direction(options, report);
         // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the force.
         report.converged = !held_up && (largest_move() <= options.still * span_ ||
-                                        -slope <= options.decrement * (gained + terms_.kinetic_energy()));
-        gained -= 0.5 * slope;
+                                        -slope <= options.decrement * terms_.kinetic_energy());
         report.stuck = !std::isfinite(slope) || !search_line(slope, options);
         if ((report.stuck && !held_up) || report.converged) return report;
     }

@@ -13,8 +13,8 @@ struct NewtonOptions {
     int max_iterations = 12;
     double tolerance = 1e-2;           ///< Norm of the objective's gradient over the force scale [1].
     double still = 0;                  ///< A step is also done when an iteration moves no vertex faster than this [m/s].
-    double decrement = 0;              ///< A step is also done when an iteration promises less than this part of the energy
-                                       ///< that moves: kinetic energy and what the iterations before it have gained [1].
+    double decrement = 0;              ///< A step is also done when an iteration promises less than this part of the
+                                       ///< kinetic energy [1].
     double linear_tolerance = 0.05;    ///< Relative residual of the linear solves [1].
     double max_move = 0.02;            ///< Largest way of a vertex near a body in one iteration [m].
     double max_far_move = 0.1;         ///< Largest way of a vertex that is not near one, if there are bodies [m].

@@ -48,14 +48,19 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
                                                         options.params.cloth_contact.gap,
                                                         particle_friction(topology_, model.cloth, model.fabrics));
     newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), cloth_contact_.get(), profile);
-    if (cloth_contact_) cloth_contact_->begin(state_);
+    look_around();
     if (!contact_) return;
     // Cloth that lies on a body from the start is held by friction in its first step already.
-    contact_->update(state_);
     newton_->list_pairs();
     settle_friction(state_, options_.params);
     newton_->terms().evaluate_forces(false);
     hold_by_friction(state_, options_.params);
+}
+
+void Phase::look_around()
+{
+    if (contact_) contact_->update(state_);
+    if (cloth_contact_) cloth_contact_->begin(state_);
 }
 
 double Phase::motion_end() const { return std::max(pins_.end(), contact_ ? contact_->motion_end() : 0.0); }

@@ -47,6 +47,8 @@ public:
     const ContactField* contact() const { return contact_.get(); }
     ClothContact* cloth_contact() { return cloth_contact_.get(); }
     const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
+    /// Looks for contacts, intersections and cloth inside bodies afresh: where the state has been set from outside.
+    void look_around();
     double motion_end() const;   ///< Time after which bodies and pins stand still [s]; 0 if none moves.
     /// The longest part of `room`, from a time on, in which bodies and pins move no further than a step may.
     double longest_step(double time, double room) const;

@@ -43,13 +43,13 @@ KERNEL_FN void pair_frame(int pair, const cloth_contact_args* a)
 KERNEL_FN real cloth_contact_energy(int pair, const cloth_contact_args* a)
 {
     real g = a->pair_gap[pair];
-    return a->pair_area[pair] * a->stiffness * g * barrier_at(a->pair_distance[pair] / g).value;
+    return a->pair_area[pair] * a->stiffness * g * open_barrier_at(a->pair_distance[pair] / g).value;
 }
 
 // How hard the two sides push each other apart [N].
 KERNEL_FN real cloth_contact_push(int pair, const cloth_contact_args* a)
 {
-    return -a->pair_area[pair] * a->stiffness * barrier_at(a->pair_distance[pair] / a->pair_gap[pair]).slope;
+    return -a->pair_area[pair] * a->stiffness * open_barrier_at(a->pair_distance[pair] / a->pair_gap[pair]).slope;
 }
 
 KERNEL_FN void cloth_contact_force(int pair, const cloth_contact_args* a)
@@ -62,6 +62,6 @@ KERNEL_FN void cloth_contact_force(int pair, const cloth_contact_args* a)
 KERNEL_FN void cloth_contact_stiffness(int pair, const cloth_contact_args* a)
 {
     vec3 n = load3(a->pair_normal, a->size.pair_stride, pair);
-    real g = a->pair_gap[pair], k = a->pair_area[pair] * a->stiffness / g * barrier_at(a->pair_distance[pair] / g).curvature;
+    real g = a->pair_gap[pair], k = a->pair_area[pair] * a->stiffness / g * open_barrier_at(a->pair_distance[pair] / g).curvature;
     add_block(a->pair_stiffness, a->size.pair_stride, pair, 0, outer3(k, n, n));
 }
