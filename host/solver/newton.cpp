@@ -87,7 +87,9 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
     report.linear_iterations += result.iterations;
     if (dot3(state_, downhill_, direction_) < 0)   // only an indefinite matrix can give this
         for_each_item(int(direction_.size()), [d = direction_.data()](int i) { d[i] = -d[i]; });
-    if (!contact_ && !cloth_) return -dot3(state_, downhill_, direction_);
+    promised_ = dot3(state_, downhill_, direction_);
+    wanted_move_ = largest_move();
+    if (!contact_ && !cloth_) return -promised_;
     free_direction_ = direction_;
     if (contact_) keep_outside_bodies();
     if (dot3(state_, downhill_, direction_) <= 0) direction_ = free_direction_;
@@ -238,8 +240,9 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
         if (report.converged || report.iterations >= most) return report;
         const double slope = search_direction(options, report);
         // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the force.
-        report.converged = !held_up && (largest_move() <= options.still * span_ ||
-                                        -slope <= options.decrement * terms_.kinetic_energy());
+        // A way that has been cut short says nothing: what it would have been does.
+        report.converged = !held_up && (wanted_move_ <= options.still * span_ ||
+                                        promised_ <= options.decrement * terms_.kinetic_energy());
         report.stuck = !std::isfinite(slope) || !search_line(slope, options);
         if ((report.stuck && !held_up) || report.converged) return report;
     }

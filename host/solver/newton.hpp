@@ -91,6 +91,7 @@ private:
     Profile& profile_;
     ActiveTerms terms_;
     double force_scale_ = 0;
+    double promised_ = 0, wanted_move_ = 0;   ///< Of the last direction, before anything stood in its way [J], [m].
     double inertia_ = 0;   ///< 1/h^2; 0 for the static energy [1/s^2].
     double span_ = 0;      ///< h [s]
     std::vector<real> start_, origin_, target_, base_, downhill_, direction_, free_direction_;
