@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bench/scatter.hpp"
 #include "host/collision/body_tessellation.hpp"
@@ -81,6 +82,7 @@ KernelCloth::KernelCloth(int vertex_count) : params(all_strengths())
                                               contact_margin);
     contact->update(state);
     load_friction();
+    put_pairs();
     pos_ = state.pos;
     vel_ = state.vel;
     anchor_ = state.friction_anchor;
@@ -143,6 +145,41 @@ void KernelCloth::load_friction()
     for (int v = 0; v < state.size.vertex_count; ++v)
         for (int c = 0; c < 3; ++c)
             state.friction_anchor[c * vs + v] += 1.5 * params.friction.stick_distance * scatter(std::uint64_t(3 * v + c));
+}
+
+// Pairs as a sheet that is folded in two has them, each within its contact distance: corners of faces and other faces.
+void KernelCloth::put_pairs()
+{
+    const int count = state.size.face_count, fs = state.size.face_stride, n = state.size.vertex_count;
+    state.set_body_points(0);
+    state.set_pairs(count);
+    const int ps = state.size.pair_stride, vs = state.size.vertex_stride;
+    std::vector<std::array<int, 4>> corners(static_cast<std::size_t>(count));
+    for (int p = 0; p < count; ++p) {
+        const int other = count - 1 - p;
+        corners[p] = {state.face_vertex[p], state.face_vertex[other], state.face_vertex[fs + other],
+                      state.face_vertex[2 * fs + other]};
+        if (corners[p][0] == corners[p][1] || corners[p][0] == corners[p][2] || corners[p][0] == corners[p][3])
+            corners[p][0] = (corners[p][0] + n / 2) % n;
+        for (int i = 0; i < 4; ++i) {
+            state.pair_vertex[i * ps + p] = corners[p][i];
+            state.pair_held_weight[i * ps + p] = i == 0 ? 1 : -1.0 / 3;
+        }
+        state.pair_area[p] = 1e-6;
+        state.pair_gap[p] = 4 * dome_radius;   // more than any distance on the dome
+        state.pair_held_normal[2 * ps + p] = 1;
+        state.pair_limit[p] = 1e-3;
+    }
+    std::vector<int> begin(std::size_t(n) + 1);
+    for (const auto& pair : corners)
+        for (int v : pair) ++begin[v + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    for (int v = 0; v < n; ++v) {
+        state.pair_slots[v] = begin[v];
+        state.pair_slots[vs + v] = begin[v + 1];
+    }
+    for (int p = 0; p < count; ++p)
+        for (int i = 0; i < 4; ++i) state.pair_slot[begin[corners[p][i]]++] = 4 * p + i;
 }
 
 void KernelCloth::reset()

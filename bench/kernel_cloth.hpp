@@ -38,6 +38,7 @@ private:
     void lay_on_dome(const Cloth& cloth, std::vector<Vec3>& positions, std::vector<Vec3>& velocities) const;
     void connect_levels(const Cloth& cloth, const Topology& topology, int resolution);
     void load_friction();
+    void put_pairs();
 
     std::vector<real> pos_, vel_, anchor_, limit_, hinge_anchor_;
 };

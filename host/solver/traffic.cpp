@@ -43,9 +43,9 @@ bool is_one_of(Field field, std::initializer_list<Field> fields)
 #define FORCE_OF(kind, corners) , Field::kind##_force
 #define STIFFNESS_OF(kind, corners) , Field::kind##_stiffness
 #define LISTS_OF(kind, corners) Field::kind##_slots, Field::kind##_slot,
-constexpr std::initializer_list<Field> forces = {Field::force ELEMENT_KINDS(FORCE_OF)};
-constexpr std::initializer_list<Field> stiffnesses = {Field::vertex_stiffness ELEMENT_KINDS(STIFFNESS_OF)};
-constexpr std::initializer_list<Field> gather_lists = {ELEMENT_KINDS(LISTS_OF)};
+constexpr std::initializer_list<Field> forces = {Field::force GATHERED_KINDS(FORCE_OF)};
+constexpr std::initializer_list<Field> stiffnesses = {Field::vertex_stiffness GATHERED_KINDS(STIFFNESS_OF)};
+constexpr std::initializer_list<Field> gather_lists = {GATHERED_KINDS(LISTS_OF)};
 
 std::size_t touched_vertices(const State& state, ItemKind kind)
 {
@@ -53,11 +53,12 @@ std::size_t touched_vertices(const State& state, ItemKind kind)
     std::vector<char> touched(std::size_t(state.size.vertex_count), 0);
     const auto mark = [&](const std::vector<int>& vertex, int corners, int count, int stride) {
         for (int corner = 0; corner < corners && !vertex.empty(); ++corner)
-            for (int item = 0; item < count; ++item) touched[std::size_t(vertex[std::size_t(corner) * stride + item])] = 1;
+            for (int item = 0; item < count; ++item)
+                if (const int v = vertex[std::size_t(corner) * stride + item]; v >= 0) touched[std::size_t(v)] = 1;
     };
 #define MARK(name, corners) \
     if (kind == ItemKind::name) mark(state.name##_vertex, corners, state.size.name##_count, state.size.name##_stride);
-    ELEMENT_KINDS(MARK)
+    GATHERED_KINDS(MARK)
 #undef MARK
     return std::size_t(std::count(touched.begin(), touched.end(), 1));
 }
@@ -146,7 +147,7 @@ std::size_t gather_bytes(const State& state)
     std::size_t total = pass_bytes(state, gather_lists) + pass_bytes(state, forces) - pass_bytes(state, {Field::force});
 #define FORCE_PASS(kind, corners) \
     if (!state.kind##_force.empty()) total += 2 * pass_bytes(state, {Field::force});
-    ELEMENT_KINDS(FORCE_PASS)
+    GATHERED_KINDS(FORCE_PASS)
 #undef FORCE_PASS
     return total;
 }
