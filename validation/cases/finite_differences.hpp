@@ -19,7 +19,8 @@ std::vector<real> term_force(const Term& term, State& state, const Params& param
 /// Central differences of minus the term's value, indexed like `state.pos`.
 std::vector<real> differenced_force(const Term& term, State& state, const Params& params);
 
-/// Central differences of minus the term's force, in the order of active_dofs.
+/// Central differences of minus the term's force, in the order of active_dofs. Of cloth_contact, whose stiffness leaves
+/// out how normals and closest points turn, with both kept.
 Eigen::MatrixXd differenced_stiffness(const Term& term, State& state, const Params& params);
 
 /// The term's own exact stiffness in the same order.

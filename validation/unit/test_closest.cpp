@@ -1,0 +1,176 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <random>
+
+#include "host/collision/ccd.hpp"
+
+using namespace selvage;
+
+namespace {
+
+constexpr double keep = 0.1;
+
+class Corners {
+public:
+    explicit Corners(unsigned seed) : random_(seed) {}
+    double number() { return uniform_(random_); }
+    Vec3 point() { return {number(), number(), number()}; }
+    PairCorners pair() { return {point(), point(), point(), point()}; }
+
+private:
+    std::mt19937 random_;
+    std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+// The least distance between points of the two sides, over a lattice of both.
+double sampled_distance(const PairCorners& x, bool edges, int steps = 120)
+{
+    double least = 1e30;
+    for (int i = 0; i <= steps; ++i)
+        for (int j = 0; j <= (edges ? steps : steps - i); ++j) {
+            const double s = double(i) / steps, t = double(j) / steps;
+            const Vec3 a = edges ? Vec3(x[0] + s * (x[1] - x[0])) : x[0];
+            const Vec3 b = edges ? Vec3(x[2] + t * (x[3] - x[2])) : Vec3(x[1] + s * (x[2] - x[1]) + t * (x[3] - x[1]));
+            least = std::min(least, (a - b).norm());
+        }
+    return least;
+}
+
+double longest_side(const PairCorners& x)
+{
+    return std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[3] - x[2]).norm(), (x[3] - x[1]).norm()});
+}
+
+pair_weights weights(const PairCorners& x, bool edges)
+{
+    const auto at = [&](int i) { return make_vec3(x[i].x(), x[i].y(), x[i].z()); };
+    return edges ? closest_edge_edge(at(0), at(1), at(2), at(3)) : closest_point_face(at(0), at(1), at(2), at(3));
+}
+
+// The closest points are points of the two sides, and no sample of these is closer. Samples are dense enough that one of
+// them is nearly as close. Edges that cross at a sine below 1e-6 are taken for parallel, which costs that part of them.
+void check_closest(const PairCorners& x, bool edges, double parallel_sine = 0)
+{
+    const pair_weights p = weights(x, edges);
+    const double least = -1e-12;
+    CHECK(std::abs(p.w[0] + p.w[1] + p.w[2] + p.w[3]) <= 1e-12);
+    for (int i = 0; i < 4; ++i) CHECK((i < (edges ? 2 : 1) ? p.w[i] : -p.w[i]) >= least);
+    CHECK(p.w[0] + (edges ? p.w[1] : 0) == Approx(1));
+    const double distance = pair_distance(x, edges), sampled = sampled_distance(x, edges);
+    CHECK(distance <= sampled + 1e-12 + parallel_sine * longest_side(x));
+    CHECK(distance >= sampled - 1.5 * longest_side(x) / 120);
+}
+
+PairCorners at(const PairCorners& x, const PairCorners& move, double part)
+{
+    PairCorners moved;
+    for (int i = 0; i < 4; ++i) moved[i] = x[i] + part * move[i];
+    return moved;
+}
+
+double free_part(const PairCorners& x, const PairCorners& move, bool edges)
+{
+    return free_fraction(x, move, edges, pair_distance(x, edges), pair_approach(move, edges), keep);
+}
+
+}  // namespace
+
+TEST_CASE("no point of a face is closer to a vertex than its closest point", "[closest]")
+{
+    Corners corners(1);
+    for (int trial = 0; trial < 150; ++trial) check_closest(corners.pair(), false);
+}
+
+TEST_CASE("no points of two edges are closer than their closest points", "[closest]")
+{
+    Corners corners(2);
+    for (int trial = 0; trial < 60; ++trial) check_closest(corners.pair(), true);
+}
+
+TEST_CASE("closest points of slivers and of parallel and nearly parallel edges are right", "[closest]")
+{
+    Corners corners(3);
+    for (int trial = 0; trial < 60; ++trial) {
+        PairCorners x = corners.pair();
+        x[3] = x[1] + (0.5 + 0.5 * corners.number()) * (x[2] - x[1]) + 1e-7 * corners.point();   // a sliver
+        INFO("sliver " << trial);
+        check_closest(x, false);
+        for (double off : {0.0, 1e-9, 1e-6, 1e-3}) {
+            PairCorners edges = corners.pair();
+            edges[3] = edges[2] + corners.number() * 2 * (edges[1] - edges[0]) + off * corners.point();
+            INFO("parallel " << trial << " off by " << off);
+            check_closest(edges, true, 1e-6);
+        }
+    }
+}
+
+TEST_CASE("closest points at corners and on edges of a face belong to these", "[closest]")
+{
+    const PairCorners face{Vec3(-1, -1, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    const auto expect = [&](const Vec3& x, double a, double b, double c) {
+        PairCorners pair = face;
+        pair[0] = x;
+        const pair_weights p = weights(pair, false);
+        CHECK(p.w[1] == Approx(-a).margin(1e-14));
+        CHECK(p.w[2] == Approx(-b).margin(1e-14));
+        CHECK(p.w[3] == Approx(-c).margin(1e-14));
+    };
+    expect({-1, -1, 1}, 1, 0, 0);
+    expect({2, -0.5, 1}, 0, 1, 0);
+    expect({-0.5, 2, 1}, 0, 0, 1);
+    expect({0.25, -1, 3}, 0.75, 0.25, 0);
+    expect({-2, 0.5, 0}, 0.5, 0, 0.5);
+    expect({1, 1, -1}, 0, 0.5, 0.5);
+    expect({0.2, 0.3, 5}, 0.5, 0.2, 0.3);
+}
+
+TEST_CASE("on the free part of a move no pair comes nearer than what is to be kept", "[closest]")
+{
+    Corners corners(4);
+    int cut = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const bool edges = trial % 2;
+        const PairCorners x = corners.pair();
+        PairCorners move = corners.pair();
+        for (Vec3& u : move) u *= 3;
+        const double distance = pair_distance(x, edges), part = free_part(x, move, edges);
+        REQUIRE(part > 0);
+        REQUIRE(part <= 1);
+        cut += part < 1;
+        double least = 1e30;
+        for (int k = 0; k <= 400; ++k) least = std::min(least, pair_distance(at(x, move, part * k / 400), edges));
+        CHECK(least >= keep * distance * (1 - 1e-9));
+    }
+    CHECK(cut > 40);
+}
+
+TEST_CASE("a move that meets head on is free for nearly all of its way", "[closest]")
+{
+    Corners corners(5);
+    for (int trial = 0; trial < 100; ++trial) {
+        const double height = 0.5 + 0.4 * corners.number(), length = height * (3 + corners.number());
+        const PairCorners face{Vec3(0.3, 0.3, height), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+        const PairCorners edges{Vec3(-1, 0, height), Vec3(1, 0, height), Vec3(0, -1, 0), Vec3(0, 1, 0)};
+        const Vec3 down(0, 0, -length), none = Vec3::Zero();
+        const double allowed = (1 - keep) * height / length;
+        for (double shift : {0.0, 5.0}) {   // what both sides have in common does not count
+            const Vec3 common(shift, -shift, 2 * shift);
+            const double of_face = free_part(face, {down + common, none + common, none + common, none + common}, false);
+            const double of_edges = free_part(edges, {down + common, down + common, none + common, none + common}, true);
+            for (double part : {of_face, of_edges}) {
+                CHECK(part <= allowed * (1 + 1e-9));
+                CHECK(part >= 0.85 * allowed);
+            }
+        }
+    }
+}
+
+TEST_CASE("a move along or away from the other side is free", "[closest]")
+{
+    const PairCorners x{Vec3(0.3, 0.3, 0.01), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    const Vec3 none = Vec3::Zero();
+    CHECK(free_part(x, {Vec3(0, 0, 0.5), none, none, none}, false) == 1);
+    CHECK(free_part(x, {Vec3(0.3, 0.3, 0), none, none, none}, false) == 1);
+    CHECK(free_part(x, {none, none, none, none}, false) == 1);
+}
