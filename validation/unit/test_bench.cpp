@@ -137,7 +137,7 @@ TEST_CASE("the bytes of a kernel follow from its field list", "[bench]")
     CHECK(term_bytes(term_named("seam"), cloth.state, TermPart::value) <= stitches * (8 + 2 * 24));
     CHECK(term_bytes(term_named("seam"), cloth.state, TermPart::value) > stitches * (8 + 24));
     CHECK(clear_forces_bytes(cloth.state) ==
-          24 * vertices + 72 * faces + 96 * std::size_t(size.hinge_count) + 48 * (stitches + size.spring_count));
+          24 * vertices + 72 * faces + 96 * std::size_t(size.hinge_count + size.pair_count) + 48 * (stitches + size.spring_count));
 }
 
 TEST_CASE("the cloth of the kernel benchmark gives every term and stage work to do", "[bench]")
