@@ -11,7 +11,8 @@
 namespace selvage {
 namespace {
 
-constexpr double keep = 0.1;             // part of a pair's distance that a move leaves
+constexpr double keep = 0.1;             // part of a pair's distance that a move leaves, or of the gap if that is less
+constexpr double held_keep = 0.5;        // the same for moves of bodies and held vertices: cloth makes way in between
 constexpr double slack_of_edge = 0.15;   // slack of the tree's boxes, of an edge length
 constexpr double body_part = 0.25;       // of the gap: where edges and corners of bodies press; before, vertices do
 constexpr int rounds = 4;                // of holding vertices back before the whole move is scaled
@@ -19,11 +20,11 @@ constexpr int rounds = 4;                // of holding vertices back before the 
 float rounded_up(double x) { return std::nextafter(float(x), std::numeric_limits<float>::infinity()); }
 float rounded_down(double x) { return std::nextafter(float(x), 0.0f); }
 
-std::vector<Body> touchable(const std::vector<Body>& bodies, const Cloth& cloth, double gap)
+std::vector<Body> touchable(const std::vector<Body>& bodies, const Cloth& cloth)
 {
     std::vector<Body> result;
     for (const Body& body : bodies)
-        if (!clear_by_vertices(body, cloth, gap)) result.push_back(body);
+        if (!clear_by_vertices(body, cloth)) result.push_back(body);
     return result;
 }
 
@@ -39,7 +40,7 @@ TreeSurface whole_surface(const Topology& topology, const Cloth& cloth, const st
 ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
                            std::vector<double> friction)
     : gap_(gap), body_gap_(body_part * gap), friction_(std::move(friction)), area_(std::size_t(topology.particle_count)),
-      faces_(topology.faces), bodies_(touchable(bodies, cloth, gap)),
+      faces_(topology.faces), bodies_(touchable(bodies, cloth)), keep_(keep),
       tree_(whole_surface(topology, cloth, bodies_), slack_of_edge * typical_edge(cloth)), tangled_(area_.size()),
       inside_(area_.size())
 {
@@ -202,8 +203,9 @@ float ClothContact::free_part(PairCandidate candidate, Look& look, const Way& wa
     if (!measured) look.distance = rounded_down(pair_distance(x, candidate.edges));
     look.approach = std::max(look.approach, rounded_up(approach));
     look.near = look.distance - look.approach < gap_;
-    if (approach < (1 - keep) * look.distance || may_pass(candidate)) return 1;
-    const double free = free_fraction(x, u, candidate.edges, look.distance, approach, keep);
+    const double least = least_distance(look);
+    if (approach < look.distance - least || may_pass(candidate)) return 1;
+    const double free = free_fraction(x, u, candidate.edges, look.distance, approach, least);
     return free < 1 ? std::nextafter(float(free), 0.0f) : 1;
 }
 
@@ -217,7 +219,7 @@ std::vector<float> ClothContact::free_parts(const Way& way, bool first)
         // What moved along with a vertex that is held back now comes nearer to it.
         const auto& c = candidates[k].corner;
         const bool changed = std::any_of(c.begin(), c.end(), [this](int v) { return held_[slot(v)] != 0; });
-        const bool may_hit = measured && look.approach >= (1 - keep) * look.distance;
+        const bool may_hit = measured && look.approach >= look.distance - least_distance(look);
         if (changed || (first && may_hit)) part[k] = free_part(candidates[k], look, way, measured);
     });
     return part;
@@ -306,6 +308,7 @@ void ClothContact::find_tangles(const State& state)
 void ClothContact::aim(const std::vector<std::pair<int, Vec3>>& pins, double time)
 {
     pins_ = pins;
+    goal_time_ = time;
     std::size_t first = 0;
     for (const Body& body : bodies_) {
         if (body.motion) {
@@ -321,6 +324,7 @@ void ClothContact::place_bodies(State& state, double time)
 {
     aim({}, time);
     pending_ = false;
+    time_ = time;
     body_now_ = body_goal_;
     ++body_version_;
     show_bodies(state);
@@ -339,7 +343,9 @@ bool ClothContact::advance_held(State& state)
     const Way way{state.pos, &move, bodies_move ? &body_move : nullptr, vs};
     cover(state, way);
     held_.assign(seen_.size(), 0);
+    keep_ = held_keep;
     const float part = scale_all(way);
+    keep_ = keep;
     for (const auto& [particle, goal] : pins_)
         for (int c = 0; c < 3; ++c)
             state.pos[c * vs + particle] = part == 1 ? goal[c] : state.pos[c * vs + particle] + part * move[c * vs + particle];
@@ -347,6 +353,8 @@ bool ClothContact::advance_held(State& state)
         body_now_[k] = part == 1 ? body_goal_[k] : Vec3(body_now_[k] + part * body_move[k]);
     pending_ = part < 1;
     body_version_ += bodies_move;
+    time_ = part == 1 ? goal_time_ : time_ + part * (goal_time_ - time_);
+    if (carry_) carry_(state, time_);
     show_bodies(state);
     update(state);
     return pending_;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -43,7 +44,8 @@ public:
     /// Lists the pairs that are in contact at state.pos.
     void update(State& state);
 
-    /// Shortens a move until its straight way is free: no pair comes nearer than a tenth of its distance. Also lists
+    /// Shortens a move until its straight way is free: no pair comes nearer than a tenth of its distance or of the gap,
+    /// whichever is less. Also lists
     /// all pairs that are in contact somewhere on the way.
     /// @param move     planes like pos [m]
     /// @param uniform  true: the whole move is scaled; false: only the vertices around what would be hit are held back
@@ -52,6 +54,9 @@ public:
     /// Returns true if nothing is passed through on the straight ways from `from` (planes like pos) to state.pos.
     bool is_clear_from(State& state, const std::vector<real>& from);
 
+    /// Called with the time up to which bodies have come whenever they move on [s].
+    using Carry = std::function<void(State&, double)>;
+    void set_carry(Carry carry) { carry_ = std::move(carry); }
     /// Sets where bodies and held particles are to be at the end of a step. @param pins  particle and place [m]
     void aim(const std::vector<std::pair<int, Vec3>>& pins, double time);
     /// Moves them on as far as the cloth makes way. @returns true if they are not there yet
@@ -91,6 +96,7 @@ private:
     PairCorners moves(const PairCandidate& candidate, const Way& way) const;
     int slot(int corner) const { return corner >= 0 ? corner : int(area_.size()) - 1 - corner; }
     double gap_of(const PairCandidate& candidate) const;
+    double least_distance(const Look& look) const { return keep_ * std::min<double>(look.distance, gap_); }
     bool may_pass(const PairCandidate& candidate) const;
 
     void cover(const State& state, const Way& way);
@@ -116,6 +122,9 @@ private:
     std::vector<Vec3> body_now_, body_goal_;       // corners of all of them [m]
     std::vector<std::pair<int, Vec3>> pins_;       // where held particles are to be
     int body_version_ = 0;                         // changes with body_now_
+    Carry carry_;
+    double time_ = 0, goal_time_ = 0;              // where bodies are and are to be [s]
+    double keep_;                                  // part of a distance that a move leaves
     bool pending_ = false;                         // bodies or pins are not where they are to be
     ClothTree tree_;
     std::vector<Look> looks_;                      // per candidate

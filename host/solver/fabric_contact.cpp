@@ -9,10 +9,9 @@ namespace selvage {
 namespace {
 
 constexpr double stretched = 1.1;    // edges may be so much longer than at rest
-constexpr double most_sag = 0.5;     // of the contact gap
+constexpr double most_sag = 0.025;   // [m], within the margin in which a vertex knows its surface
 
 }  // namespace
-
 
 std::vector<double> particle_friction(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics)
 {
@@ -37,10 +36,10 @@ double chord_sag(const Body& body, const Cloth& cloth)
     return std::pow(stretched * longest, 2) / (6 * body.radius);
 }
 
-bool clear_by_vertices(const Body& body, const Cloth& cloth, double gap)
+bool clear_by_vertices(const Body& body, const Cloth& cloth)
 {
     if (body.kind == Body::Kind::plane) return true;
-    return body.kind != Body::Kind::mesh && !body.motion && chord_sag(body, cloth) <= most_sag * gap;
+    return body.kind != Body::Kind::mesh && !body.motion && chord_sag(body, cloth) <= most_sag;
 }
 
 FabricContact::FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology,
@@ -50,7 +49,7 @@ FabricContact::FabricContact(BodyQuery& query, const std::vector<Body>& bodies, 
 {
     for (const Body& body : bodies) {
         body_friction_.push_back(body.friction);
-        body_sag_.push_back(std::min(chord_sag(body, cloth), most_sag * gap));
+        body_sag_.push_back(std::min(chord_sag(body, cloth), most_sag));
     }
 }
 

@@ -14,9 +14,9 @@ std::vector<double> particle_friction(const Topology& topology, const Cloth& clo
 /// up to L, since no point of a triangle is further than L / sqrt(3) from its nearest corner [m]. 0 for planes and meshes.
 double chord_sag(const Body& body, const Cloth& cloth);
 
-/// Whether cloth whose vertices are outside a body by its sag is outside it as a whole, with room to spare: true for
-/// planes, and for spheres and capsules that stand still and are not too small for the cloth's triangles.
-bool clear_by_vertices(const Body& body, const Cloth& cloth, double gap);
+/// Whether cloth whose vertices are outside a body by its sag is outside it as a whole: true for planes, and for spheres
+/// and capsules that stand still and are not too small for the cloth's triangles.
+bool clear_by_vertices(const Body& body, const Cloth& cloth);
 
 /// Contact of the particles with the scene's bodies: the queries of BodyQuery written into the state's fields.
 class FabricContact final : public ContactField {

@@ -230,8 +230,8 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
 {
     NewtonReport report;
     for (;; ++report.iterations) {
-        if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
         const bool held_up = cloth_ && cloth_->advance_held(state_);
+        if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
         if (settle_each) settle();
         evaluate_gradient();
         report.residual = gradient_norm() / force_scale_;

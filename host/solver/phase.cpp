@@ -47,6 +47,8 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
         cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, query ? model.bodies : std::vector<Body>{},
                                                         options.params.cloth_contact.gap,
                                                         particle_friction(topology_, model.cloth, model.fabrics));
+    if (cloth_contact_ && contact_ && contact_->motion_end() > 0)
+        cloth_contact_->set_carry([this](State& state, double time) { contact_->move_to(state, time); });
     newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), cloth_contact_.get(), profile);
     look_around();
     if (!contact_) return;
@@ -79,11 +81,12 @@ void Phase::place(double time)
 
 void Phase::move_to(double time)
 {
-    if (contact_) contact_->move_to(state_, time);
-    if (cloth_contact_)
+    if (cloth_contact_) {   // it moves them, as far as the cloth makes way
         cloth_contact_->aim(pins_.places(time), time);
-    else
-        pins_.move_to(state_, time);
+        return;
+    }
+    if (contact_) contact_->move_to(state_, time);
+    pins_.move_to(state_, time);
 }
 
 void place_particles(Phase& phase, const std::vector<Vec3>& positions)

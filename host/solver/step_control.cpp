@@ -101,7 +101,8 @@ bool StepControl::too_inaccurate(double dt)
 // vertex that slides around a body for many short steps passes through it.
 bool StepControl::passed_into_body(bool last)
 {
-    if (!phase_.contact()) return false;
+    // Ways against moving bodies are cleared as they are gone.
+    if (!phase_.contact() || (moves_ && phase_.cloth_contact())) return false;
     const State& state = phase_.state();
     const double piece = 0.5 * phase_.contact()->search_radius();
     if (!last && largest_distance(state, state.pos, looked_from_) < piece) return false;

@@ -9,8 +9,9 @@ import h5py
 import numpy as np
 
 PROGRAM = os.environ.get("SELVAGE", "build/selvage")
+# Folds that touch each other have more than one shape at rest: what is compared here is the way to one that has not.
 HANGING = ["builtin:hanging", "--set", "sheet.resolution=49", "--set", "output.picture=false", "--set",
-           "output.precision=lossless", "--quiet"]
+           "output.precision=lossless", "--set", "contact.self=false", "--quiet"]
 CLOSE = 1e-4   # [m], a fifth of what one halving of the edge length moves
 
 

@@ -71,7 +71,8 @@ PairCorners at(const PairCorners& x, const PairCorners& move, double part)
 
 double free_part(const PairCorners& x, const PairCorners& move, bool edges)
 {
-    return free_fraction(x, move, edges, pair_distance(x, edges), pair_approach(move, edges), keep);
+    const double distance = pair_distance(x, edges);
+    return free_fraction(x, move, edges, distance, pair_approach(move, edges), keep * distance);
 }
 
 }  // namespace
