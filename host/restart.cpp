@@ -105,7 +105,10 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
     checkpoint.reals["friction_anchor"] = state.friction_anchor;
     checkpoint.reals["friction_limit"] = state.friction_limit;
     checkpoint.reals["hinge_anchor"] = state.hinge_anchor;
-    if (phase.cloth_contact()) checkpoint.reals["pair_memory"] = phase.cloth_contact()->memory();
+    if (phase.cloth_contact()) {
+        checkpoint.reals["pair_memory"] = phase.cloth_contact()->memory();
+        checkpoint.reals["cloth_faults"] = phase.cloth_contact()->faults();
+    }
     for (const auto& [name, seconds] : p.counters.phases) checkpoint.reals["phase_" + name] = {seconds};
     const auto history = integrator.history();
     for (std::size_t k = 0; k < history.size(); ++k) checkpoint.reals[history_name(k)] = *history[k];
@@ -160,6 +163,8 @@ void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase
     phase.params().seam.stiffness = sewing[6];
     phase.params().seam.force_limit = sewing[7];
     phase.look_around();
+    if (ClothContact* cloth = phase.cloth_contact())
+        cloth->set_faults(array_of(checkpoint.reals, "cloth_faults", path, cloth->faults().size()));
 }
 
 void load_history(const Checkpoint& checkpoint, const std::string& path, Integrator& integrator)

@@ -278,6 +278,24 @@ void ClothContact::find_inside(const State& state)
     }));
 }
 
+std::vector<real> ClothContact::faults() const
+{
+    std::vector<real> result(inside_.size());
+    for (std::size_t v = 0; v < result.size(); ++v) result[v] = inside_[v] + 2 * tangled_[v];
+    return result;
+}
+
+void ClothContact::set_faults(const std::vector<real>& faults)
+{
+    counts_.inside = counts_.tangles = 0;
+    for (std::size_t v = 0; v < inside_.size(); ++v) {
+        inside_[v] = int(faults[v]) & 1;
+        tangled_[v] = int(faults[v]) >> 1 & 1;
+        counts_.inside += inside_[v];
+        counts_.tangles += tangled_[v];
+    }
+}
+
 void ClothContact::find_tangles(const State& state)
 {
     const int n = state.size.vertex_count, vs = state.size.vertex_stride;

@@ -41,6 +41,9 @@ public:
     /// Looks for intersections that are there at the start.
     void begin(State& state);
 
+    /// Forgets what earlier steps have found, so that a step depends on the state alone and a resumed run goes the same way.
+    void start_step() { tree_.forget(); }
+
     /// Lists the pairs that are in contact at state.pos.
     void update(State& state);
 
@@ -71,6 +74,11 @@ public:
     /// The bristles of friction, for retries and checkpoints.
     std::vector<real>& memory() { return memory_; }
     const std::vector<real>& memory() const { return memory_; }
+
+    /// What is known of each particle's faults, for checkpoints: 1 if it started inside a body and is still there, plus 2
+    /// if it belongs to a triangle that may pass through others.
+    std::vector<real> faults() const;
+    void set_faults(const std::vector<real>& faults);   ///< As `faults` gave them.
 
     double gap() const { return gap_; }
     const ClothContactCounts& counts() const { return counts_; }

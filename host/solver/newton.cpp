@@ -251,6 +251,7 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
 NewtonReport Newton::minimise(double span, const std::vector<real>& origin, const std::vector<real>& target,
                               const NewtonOptions& options, const std::vector<real>* expected)
 {
+    if (cloth_) cloth_->start_step();
     span_ = span;
     inertia_ = 1 / (span * span);
     start_ = state_.pos;
@@ -283,6 +284,7 @@ NewtonReport Newton::relax(const NewtonOptions& options)
     inertia_ = 0;
     start_ = origin_ = state_.pos;
     std::fill(state_.vel.begin(), state_.vel.end(), 0);
+    if (cloth_) cloth_->start_step();
     list_pairs();
     return iterate(options, true);
 }

@@ -11,7 +11,8 @@ import numpy as np
 PROGRAM = os.environ.get("SELVAGE", "build/selvage")
 # Folds that touch each other have more than one shape at rest: what is compared here is the way to one that has not.
 HANGING = ["builtin:hanging", "--set", "sheet.resolution=49", "--set", "output.picture=false", "--set",
-           "output.precision=lossless", "--set", "contact.self=false", "--quiet"]
+           "output.precision=lossless", "--set", "contact.self=false", "--set",
+           "solver.integrator=implicit_euler", "--set", "solver.tolerance=1e-4", "--quiet"]
 CLOSE = 1e-4   # [m], a fifth of what one halving of the edge length moves
 
 
