@@ -46,7 +46,7 @@ class Skip(unittest.TestCase):
         self.assertLessEqual({"body", "friction", "embree", "damping", "hysteresis", "curves", "frames", "picture"},
                              set(states))
         for feature, of in states.items():
-            if feature in ("damping", "frames"):   # their use does not show in the kernels that a run counts
+            if feature in ("damping", "frames"):   # known to be reported wrongly; not tested until that is mended
                 continue
             with self.subTest(feature):
                 self.assertFalse(of["absent"]["in_use"])
