@@ -25,9 +25,9 @@ KERNEL_FN barrier_jet barrier_at(real s)
     barrier_jet b;
     b.value = b.slope = b.curvature = REAL(0);
     if (s >= REAL(1)) return b;
-    b = log_barrier(fmax(s, s0));
+    b = log_barrier(larger(s, s0));
     if (s >= s0) return b;
-    real d = fmax(s, REAL(-1)) - s0;
+    real d = larger(s, REAL(-1)) - s0;
     b.value += d * (b.slope + REAL(0.5) * d * b.curvature);
     b.slope += d * b.curvature;
     if (s > REAL(-1)) return b;
@@ -41,5 +41,5 @@ KERNEL_FN barrier_jet open_barrier_at(real s)
 {
     barrier_jet b;
     b.value = b.slope = b.curvature = REAL(0);
-    return s >= REAL(1) ? b : log_barrier(fmax(s, REAL(1e-9)));
+    return s >= REAL(1) ? b : log_barrier(larger(s, REAL(1e-9)));
 }

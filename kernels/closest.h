@@ -5,7 +5,7 @@
 
 typedef struct { real w[4]; } pair_weights;
 
-KERNEL_FN real unit_interval(real t) { return fmin(REAL(1), fmax(REAL(0), t)); }
+KERNEL_FN real unit_interval(real t) { return smaller(REAL(1), larger(REAL(0), t)); }
 
 KERNEL_FN pair_weights face_weights(real b, real c)
 {

@@ -27,10 +27,10 @@ KERNEL_FN hinge_state hinge_at(int hinge, mesh_sizes size, GLOBAL const real* po
     h.n1 = cross(h.e, h.p);
     h.n2 = cross(h.q, h.e);
     // A face squeezed to nothing gives no direction: the floor keeps its forces finite until it opens again.
-    real e2 = fmax(dot(h.e, h.e), REAL(1e-18));
+    real e2 = larger(dot(h.e, h.e), REAL(1e-18));
     h.length = sqrt(e2);
-    h.inv_n1 = REAL(1) / fmax(dot(h.n1, h.n1), REAL(1e-6) * e2 * e2);
-    h.inv_n2 = REAL(1) / fmax(dot(h.n2, h.n2), REAL(1e-6) * e2 * e2);
+    h.inv_n1 = REAL(1) / larger(dot(h.n1, h.n1), REAL(1e-6) * e2 * e2);
+    h.inv_n2 = REAL(1) / larger(dot(h.n2, h.n2), REAL(1e-6) * e2 * e2);
     h.b2 = dot(h.p, h.e) / e2;
     h.b3 = dot(h.q, h.e) / e2;
     vec3 u1 = sqrt(h.inv_n1) * h.n1, u2 = sqrt(h.inv_n2) * h.n2;

@@ -51,10 +51,10 @@ KERNEL_FN void membrane_add_force(int face, real area, const membrane_state* s, 
 // Cuts negative tangents and coupling beyond sqrt(ku kv).
 KERNEL_FN void membrane_project_tangents(membrane_state* s)
 {
-    s->ku = fmax(s->ku, REAL(0));
-    s->kv = fmax(s->kv, REAL(0));
-    s->ks = fmax(s->ks, REAL(0));
-    s->kc = fmin(s->kc, sqrt(s->ku * s->kv));
+    s->ku = larger(s->ku, REAL(0));
+    s->kv = larger(s->kv, REAL(0));
+    s->ks = larger(s->ks, REAL(0));
+    s->kc = smaller(s->kc, sqrt(s->ku * s->kv));
 }
 
 // Cuts the negative principal stresses of [s_uu s_uv; s_uv s_vv] in closed form.
@@ -62,8 +62,8 @@ KERNEL_FN void membrane_project_stress(membrane_state* s)
 {
     real mean = REAL(0.5) * (s->s_uu + s->s_vv), spread = REAL(0.5) * (s->s_uu - s->s_vv);
     real radius = sqrt(spread * spread + s->s_uv * s->s_uv);
-    real high = fmax(mean + radius, REAL(0)), low = fmax(mean - radius, REAL(0));
-    real tilt = (high - low) / fmax(REAL(2) * radius, REAL(1e-30));
+    real high = larger(mean + radius, REAL(0)), low = larger(mean - radius, REAL(0));
+    real tilt = (high - low) / larger(REAL(2) * radius, REAL(1e-30));
     s->s_uu = REAL(0.5) * (high + low) + tilt * spread;
     s->s_vv = REAL(0.5) * (high + low) - tilt * spread;
     s->s_uv = tilt * s->s_uv;

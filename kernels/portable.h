@@ -6,6 +6,8 @@
     typedef float real;
     typedef float3 vec3;                               // dot, cross and length are built in
     #define make_vec3(x, y, z) ((vec3)(x, y, z))
+    #define larger fmax
+    #define smaller fmin
 #else
     #include <cmath>
     #define GLOBAL
@@ -14,10 +16,11 @@
     struct vec3 { real x, y, z; };
     using std::asin;
     using std::fabs;
-    using std::fmax;
-    using std::fmin;
     using std::log;
     using std::sqrt;
+    // In line: calls of the C library's fmax cost more than the kernels around them.
+    static inline real larger(real a, real b) { return a > b ? a : b; }
+    static inline real smaller(real a, real b) { return a < b ? a : b; }
     static inline vec3 make_vec3(real x, real y, real z) { return {x, y, z}; }
     static inline vec3 operator+(vec3 a, vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
     static inline vec3 operator-(vec3 a, vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }

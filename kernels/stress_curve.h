@@ -18,7 +18,7 @@ KERNEL_FN curve_value curve_at(GLOBAL const real* curve, int stride, real strain
     int range = 0;
     while (range + 1 < CURVE_RANGES && strain >= curve[CURVE_NUMBERS * (range + 1) * stride]) ++range;
     GLOBAL const real* k = curve + CURVE_NUMBERS * range * stride;
-    real d = strain - k[0], up = fmax(d, REAL(0));
+    real d = strain - k[0], up = larger(d, REAL(0));
     real a = k[3 * stride], b = k[4 * stride], c = k[5 * stride];
     curve_value value;
     value.energy = k[stride] + d * (k[2 * stride] + REAL(0.5) * a * d) +

@@ -13,6 +13,10 @@ namespace selvage {
 /// The corners of a pair: a vertex and a face's three, or the ends of two edges.
 using PairCorners = std::array<Vec3, 4>;
 
+/// A distance as a float that is not below it, or not above it: rounding errs by 2^-24 of it.
+inline float rounded_up(double x) { return float(x * (1 + 0x1p-23)); }
+inline float rounded_down(double x) { return float(x * (1 - 0x1p-23)); }
+
 /// Returns the distance of the two sides [m].
 inline double pair_distance(const PairCorners& x, bool edges)
 {

@@ -9,13 +9,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
-#include "kernels/portable.h"
+#include "host/collision/ccd.hpp"
 
 namespace selvage {
 namespace {
 
 constexpr double flat_to_skip = 0.4, flat_to_stay = 0.25;   // least s - e of a subtree that is skipped
-constexpr double slack_of_way = 0.2;                       // of a corner's move
+constexpr double slack_of_way = 0.02;                      // of a corner's move
 constexpr int grain = 512;
 constexpr std::size_t frontier = 256;                      // pieces that a search is divided into
 
@@ -31,18 +31,21 @@ void parallel(int count, const Work& work)
 
 }  // namespace
 
-void ClothTree::Box::clear()
+void ClothTree::Sweep::clear()
 {
-    low.fill(std::numeric_limits<float>::infinity());
-    high.fill(-std::numeric_limits<float>::infinity());
+    for (int end = 0; end < 2; ++end) {
+        low[end].fill(std::numeric_limits<float>::infinity());
+        high[end].fill(-std::numeric_limits<float>::infinity());
+    }
 }
 
-void ClothTree::Box::add(const Box& other)
+void ClothTree::Sweep::add(const Sweep& other)
 {
-    for (int c = 0; c < 3; ++c) {
-        low[c] = std::min(low[c], other.low[c]);
-        high[c] = std::max(high[c], other.high[c]);
-    }
+    for (int end = 0; end < 2; ++end)
+        for (int c = 0; c < 4; ++c) {
+            low[end][c] = std::min(low[end][c], other.low[end][c]);
+            high[end][c] = std::max(high[end][c], other.high[end][c]);
+        }
 }
 
 void ClothTree::Gradients::clear()
@@ -73,18 +76,24 @@ double ClothTree::Gradients::stretch_bound() const
     return std::sqrt(std::max(smaller, 0.0)) - std::sqrt(squared_spread);
 }
 
-// Bounds of all ways in the moving frame, grown by half of the reach and by slack: the more the further a corner goes,
-// since the next move will go elsewhere by a part of it. Bodies that stand still need no slack.
+// Boxes in the moving frame, grown by half of the reach and by slack: a little more the further a corner goes, since the
+// next move will go elsewhere by a part of it. Bodies that stand still need no slack.
 void ClothTree::refit_boxes(bool bodies_move)
 {
     parallel(int(start_.size()), [&](int k) {
-        const double slack = slack_ + slack_of_way * (end_[k] - start_[k]).norm();
-        const float grown = float(k < particles_ || bodies_move ? slack + 0.5 * reach_ : body_reach_ - 0.5 * reach_);
-        for (int c = 0; c < 3; ++c) {
-            corner_box_[k].low[c] = float(std::min(start_[k][c], end_[k][c])) - grown;
-            corner_box_[k].high[c] = float(std::max(start_[k][c], end_[k][c])) + grown;
-        }
+        const bool still = k >= particles_ && !bodies_move;
+        slack_of_[k] = still ? 0 : float(slack_ + slack_of_way * (end_[k] - start_[k]).norm());
+        const float grown = slack_of_[k] + float(still ? body_reach_ - 0.5 * reach_ : 0.5 * reach_);
+        corner_box_[k] = {};
+        for (int c = 0; c < 3; ++c)
+            for (int end = 0; end < 2; ++end) {
+                const float x = float((end == 0 ? start_ : end_)[k][c]);
+                corner_box_[k].low[end][c] = x - grown;
+                corner_box_[k].high[end][c] = x + grown;
+            }
     });
+    searched_start_ = start_;
+    searched_end_ = end_;
     parallel(int(surface_.faces.size()), [&](int f) {
         face_box_[f].clear();
         for (int corner : surface_.faces[f]) face_box_[f].add(corner_box_[slot(corner)]);
@@ -159,18 +168,36 @@ void ClothTree::set_frame(const double* from, const double* move, int stride, co
     });
 }
 
+// How much of the searched move the corners have gone, by least squares.
+double ClothTree::part_gone() const
+{
+    using Sums = std::array<double, 2>;
+    const Sums sums = tbb::parallel_deterministic_reduce(
+        Range(0, particles_, 4096), Sums{},
+        [&](const Range& range, Sums sum) {
+            for (int k = range.begin(); k < range.end(); ++k) {
+                const Vec3 way = searched_end_[k] - searched_start_[k];
+                sum[0] += way.dot(start_[k] - searched_start_[k]);
+                sum[1] += way.squaredNorm();
+            }
+            return sum;
+        },
+        [](const Sums& a, const Sums& b) { return Sums{a[0] + b[0], a[1] + b[1]}; });
+    return sums[1] > 0 ? std::clamp(sums[0] / sums[1], 0.0, 1.0) : 0;
+}
+
 bool ClothTree::still_complete(const TreeBodies& bodies, double reach, double body_reach) const
 {
     if (!valid_ || reach > reach_ || body_reach > body_reach_ || bodies.moves || bodies.version != body_version_) return false;
-    const float inner = float(0.5 * reach_);
+    const double part = part_gone();
     return tbb::parallel_reduce(
         Range(0, particles_, 4096), true,
         [&](const Range& range, bool all) {
-            for (int k = range.begin(); k < range.end() && all; ++k)
-                for (int c = 0; c < 3; ++c) {
-                    const float low = float(std::min(start_[k][c], end_[k][c])), high = float(std::max(start_[k][c], end_[k][c]));
-                    all = all && low >= corner_box_[k].low[c] + inner && high <= corner_box_[k].high[c] - inner;
-                }
+            for (int k = range.begin(); k < range.end() && all; ++k) {
+                const Vec3 at = searched_start_[k] + part * (searched_end_[k] - searched_start_[k]);
+                const double strayed = std::max((start_[k] - at).squaredNorm(), (end_[k] - at).squaredNorm());
+                all = strayed <= double(slack_of_[k]) * slack_of_[k];
+            }
             return all;
         },
         [](bool a, bool b) { return a && b; });
@@ -246,7 +273,7 @@ void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<i
         }
         return;
     }
-    if (!node_box_[a].overlaps(node_box_[b]) || (is_body(a) && is_body(b))) return;
+    if (!node_box_[a].meets(node_box_[b]) || (is_body(a) && is_body(b))) return;
     if (na.right == 0 && nb.right == 0) {
         for (int i = 0; i < na.count; ++i)
             for (int j = 0; j < nb.count; ++j) meet(order_[na.first + i], order_[nb.first + j], found);
@@ -257,39 +284,72 @@ void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<i
     }
 }
 
-// Keeps a pair unless its two sides share a vertex, or will once it is sewn.
-void ClothTree::offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const
+// Whether the two sides share no vertex, and will not once they are sewn.
+bool ClothTree::may_touch(const PairCandidate& candidate) const
 {
     const int first = candidate.edges ? 2 : 1;
     for (int i = 0; i < first; ++i)
         for (int j = first; j < 4; ++j) {
             const int a = candidate.corner[i], b = candidate.corner[j];
-            if (a >= 0 && b >= 0 && surface_.group_of[a] == surface_.group_of[b]) return;
+            if (a >= 0 && b >= 0 && surface_.group_of[a] == surface_.group_of[b]) return false;
         }
-    Box one = corner_box_[slot(candidate.corner[0])], other = corner_box_[slot(candidate.corner[first])];
-    for (int i = 1; i < first; ++i) one.add(corner_box_[slot(candidate.corner[i])]);
-    for (int j = first + 1; j < 4; ++j) other.add(corner_box_[slot(candidate.corner[j])]);
-    if (one.overlaps(other)) found.push_back(candidate);
+    return true;
 }
 
+// Keeps a pair whose distance is not more than what it can lose.
+void ClothTree::offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const
+{
+    if (!may_touch(candidate)) return;
+    const int first = candidate.edges ? 2 : 1;
+    PairCorners x, move;
+    double slack[2] = {0, 0};
+    for (int i = 0; i < 4; ++i) {
+        const int at = slot(candidate.corner[i]);
+        x[i] = start_[at];
+        move[i] = end_[at] - start_[at];
+        slack[i >= first] = std::max<double>(slack[i >= first], slack_of_[at]);
+    }
+    const double distance = pair_distance(x, candidate.edges);
+    const bool body = std::min(candidate.corner[0], candidate.corner[3]) < 0;
+    if (distance - pair_approach(move, candidate.edges) > (body ? body_reach_ : reach_) + slack[0] + slack[1]) return;
+    found.push_back(candidate);
+    found.back().distance = rounded_down(distance);
+}
+
+// Offers the pairs of two faces' primitives, those that are near the other face as a whole.
 void ClothTree::meet(int face_a, int face_b, std::vector<PairCandidate>& found) const
 {
-    if (!face_box_[face_a].overlaps(face_box_[face_b])) return;
+    if (!face_box_[face_a].meets(face_box_[face_b])) return;
     const Face &a = surface_.faces[face_a], &b = surface_.faces[face_b];
+    const auto edge_box = [this](const Face& f, int k) {
+        Sweep box = corner_box_[slot(f[k])];
+        box.add(corner_box_[slot(f[(k + 1) % 3])]);
+        return box;
+    };
+    std::array<Sweep, 3> box_of_b;
+    std::array<bool, 3> near_b;
+    for (int l = 0; l < 3; ++l) {
+        if ((owned_[face_b] >> l & 1) && corner_box_[slot(b[l])].meets(face_box_[face_a]))
+            offer({{b[l], a[0], a[1], a[2]}, false}, found);
+        box_of_b[l] = edge_box(b, l);
+        near_b[l] = (owned_[face_b] >> (3 + l) & 1) && box_of_b[l].meets(face_box_[face_a]);
+    }
     for (int k = 0; k < 3; ++k) {
-        if (owned_[face_a] >> k & 1) offer({{a[k], b[0], b[1], b[2]}, false}, found);
-        if (owned_[face_b] >> k & 1) offer({{b[k], a[0], a[1], a[2]}, false}, found);
+        if ((owned_[face_a] >> k & 1) && corner_box_[slot(a[k])].meets(face_box_[face_b]))
+            offer({{a[k], b[0], b[1], b[2]}, false}, found);
         if (!(owned_[face_a] >> (3 + k) & 1)) continue;
+        const Sweep box_of_a = edge_box(a, k);
+        if (!box_of_a.meets(face_box_[face_b])) continue;
         for (int l = 0; l < 3; ++l)
-            if (owned_[face_b] >> (3 + l) & 1) offer({{a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]}, true}, found);
+            if (near_b[l] && box_of_a.meets(box_of_b[l])) offer({{a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]}, true}, found);
     }
 }
 
 std::size_t ClothTree::bytes() const
 {
-    return nodes_.size() * (sizeof(Node) + sizeof(Box) + sizeof(Gradients)) +
-           surface_.faces.size() * (sizeof(Face) + 3 * sizeof(Vec2) + sizeof(Box) + sizeof(Gradients) + 40) +
-           near_.size() * sizeof(int) + start_.size() * (2 * sizeof(Vec3) + sizeof(Box)) +
+    return nodes_.size() * (sizeof(Node) + sizeof(Sweep) + sizeof(Gradients)) +
+           surface_.faces.size() * (sizeof(Face) + 3 * sizeof(Vec2) + sizeof(Sweep) + sizeof(Gradients) + 40) +
+           near_.size() * sizeof(int) + start_.size() * (4 * sizeof(Vec3) + sizeof(Sweep) + sizeof(float)) +
            candidates_.capacity() * sizeof(PairCandidate);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,7 @@ namespace selvage {
 struct PairCandidate {
     std::array<int, 4> corner{};    ///< A vertex and a face's three, or the ends of two edges.
     bool edges = false;
+    float distance = 0;             ///< Where the search found it: a lower bound, exact but for rounding [m].
 };
 
 /// What a tree is built over. Faces of bodies have corners below zero; see PairCandidate.
@@ -43,8 +45,12 @@ struct TreeCounts {
     long long flat_skipped = 0;     ///< Subtrees that were skipped in traversals since they cannot meet themselves.
 };
 
-/// A bounding volume hierarchy over the faces of the cloth, and of the bodies that it may touch, whose boxes hold the
-/// ways of all corners during a move. It finds all pairs of primitives that can come within a distance during the move.
+/// A bounding volume hierarchy over the faces of the cloth, and of the bodies that it may touch, whose nodes have a box
+/// for each end of a move. It finds all pairs of primitives that can come within a distance during the move.
+///
+/// Corners go straight and at the same time, so that the lowest corner of a side is above the chord of its lowest at both
+/// ends: two sides that are apart along the same axis in the same order at both ends are so all the way, however far they
+/// go together.
 ///
 /// Flat parts are skipped (E7). Between two points of a convex piece of a panel at rest distance r, with F the
 /// deformation gradient (3x2) of its faces, the distance in space is at least (s - e) r, where s is the smaller
@@ -54,11 +60,11 @@ struct TreeCounts {
 /// linear in the positions, checking both ends of a move covers the move. This is a rigorous form of the test on
 /// cones of normals.
 ///
-/// Candidates stay complete while every corner stays within the box that was searched for it, in a frame that
-/// moves along with the cloth, and while every skipped subtree still passes the test.
+/// Candidates stay complete while every corner is within its slack of where the searched move has it at some common
+/// moment, in a frame that moves along with the cloth, and while every skipped subtree still passes the test.
 class ClothTree {
 public:
-    /// @param slack  what the boxes are grown by so that candidates serve for further moves [m]
+    /// @param slack  how far corners may stray from the searched move before it has to be searched again [m]
     ClothTree(TreeSurface surface, double slack);
 
     /// Makes candidates complete for the straight moves from `from` to `from + move` of all particles.
@@ -76,17 +82,23 @@ public:
     std::size_t bytes() const;
 
 private:
-    struct Box {
-        std::array<float, 3> low, high;
+    struct alignas(16) Sweep {                  // boxes at both ends of a move; a fourth component pads them
+        using Corner = std::array<float, 4>;
+        std::array<Corner, 2> low, high;
         void clear();
-        void add(const Box& other);
-        bool overlaps(const Box& other) const
+        void add(const Sweep& other);
+        bool meets(const Sweep& other) const    // false: they are apart all the way
         {
-            return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
-                   other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
+            Corner between;
+            for (int c = 0; c < 4; ++c) {
+                const float above = std::min(low[0][c] - other.high[0][c], low[1][c] - other.high[1][c]);
+                const float below = std::min(other.low[0][c] - high[0][c], other.low[1][c] - high[1][c]);
+                between[c] = std::max(above, below);
+            }
+            return std::max(std::max(between[0], between[1]), between[2]) <= 0;
         }
     };
-    struct Gradients {                          // range of the deformation gradients
+    struct Gradients {                          // range of the deformation gradients, F by columns
         std::array<float, 6> low, high;
         void clear();
         void add(const Gradients& other);
@@ -112,6 +124,7 @@ private:
     void own_primitives();
     void set_frame(const double* from, const double* move, int stride, const TreeBodies& bodies);
     bool still_complete(const TreeBodies& bodies, double reach, double body_reach) const;
+    double part_gone() const;
     void refit_gradients();
     void refit_boxes(bool bodies_move);
     void search();
@@ -119,6 +132,7 @@ private:
                std::vector<PairCandidate>& found) const;
     void meet(int face_a, int face_b, std::vector<PairCandidate>& found) const;
     void offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const;
+    bool may_touch(const PairCandidate& candidate) const;
     int slot(int corner) const { return corner >= 0 ? corner : particles_ - 1 - corner; }
     bool is_body(int node) const { return nodes_[node].patch >= 0 && !surface_.patches[nodes_[node].patch].flat; }
     bool is_flat(int node, double threshold) const
@@ -136,7 +150,9 @@ private:
     std::vector<std::array<double, 4>> rest_inverse_;
 
     std::vector<Vec3> start_, end_;             // of each corner in the moving frame, particles first
-    std::vector<Box> corner_box_, face_box_, node_box_;
+    std::vector<Vec3> searched_start_, searched_end_;   // the same when the candidates were searched
+    std::vector<float> slack_of_;               // of each corner [m]
+    std::vector<Sweep> corner_box_, face_box_, node_box_;
     std::vector<Gradients> face_gradients_, node_gradients_;
     std::vector<int> skipped_;                  // nodes that were taken for flat
     double reach_ = 0, body_reach_ = 0;

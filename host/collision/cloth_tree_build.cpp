@@ -69,6 +69,7 @@ ClothTree::ClothTree(TreeSurface surface, double slack)
     if (!surface_.patches.empty()) build_patches(0, int(surface_.patches.size()));
     start_.resize(corners);
     end_.resize(corners);
+    slack_of_.resize(corners);
     corner_box_.resize(corners);
     face_box_.resize(faces);
     face_gradients_.resize(faces);

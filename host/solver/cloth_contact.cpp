@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host/collision/self_intersections.hpp"
 #include "host/solver/fabric_contact.hpp"
@@ -13,12 +12,9 @@ namespace {
 
 constexpr double keep = 0.1;             // part of a pair's distance that a move leaves, or of the gap if that is less
 constexpr double held_keep = 0.5;        // the same for moves of bodies and held vertices: cloth makes way in between
-constexpr double slack_of_edge = 0.15;   // slack of the tree's boxes, of an edge length
+constexpr double slack_of_edge = 0.1;   // slack of the tree's boxes, of an edge length
 constexpr double body_part = 0.25;       // of the gap: where edges and corners of bodies press; before, vertices do
 constexpr int rounds = 4;                // of holding vertices back before the whole move is scaled
-
-float rounded_up(double x) { return std::nextafter(float(x), std::numeric_limits<float>::infinity()); }
-float rounded_down(double x) { return std::nextafter(float(x), 0.0f); }
 
 std::vector<Body> touchable(const std::vector<Body>& bodies, const Cloth& cloth)
 {
@@ -147,10 +143,10 @@ void ClothContact::look_at_all(const State&, const Way& way, bool afresh)
         };
         Look& look = looks_[k];
         look.approach = both_sides(way_);
-        look.distance -= both_sides(gone_);
-        look.near = afresh || look.distance - look.approach < gap_;
+        look.distance = afresh ? candidate.distance : look.distance - both_sides(gone_);
+        look.near = look.distance - look.approach < gap_;
         if (!look.near) return;
-        look.distance = rounded_down(pair_distance(places(candidate, way), candidate.edges));
+        if (!afresh) look.distance = rounded_down(pair_distance(places(candidate, way), candidate.edges));
         if (way.move) look.approach = rounded_up(pair_approach(moves(candidate, way), candidate.edges));
         look.near = look.distance - look.approach < gap_;
     });
@@ -206,7 +202,7 @@ float ClothContact::free_part(PairCandidate candidate, Look& look, const Way& wa
     const double least = least_distance(look);
     if (approach < look.distance - least || may_pass(candidate)) return 1;
     const double free = free_fraction(x, u, candidate.edges, look.distance, approach, least);
-    return free < 1 ? std::nextafter(float(free), 0.0f) : 1;
+    return free < 1 ? rounded_down(free) : 1;
 }
 
 std::vector<float> ClothContact::free_parts(const Way& way, bool first)

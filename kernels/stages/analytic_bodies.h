@@ -38,7 +38,7 @@ KERNEL_FN body_contact capsule_contact(vec3 x, vec3 first, vec3 last, real radiu
 {
     vec3 axis = last - first;
     real along = dot(x - first, axis) / dot(axis, axis);
-    along = fmin(REAL(1), fmax(REAL(0), along));
+    along = smaller(REAL(1), larger(REAL(0), along));
     return sphere_contact(x, first + along * axis, radius);
 }
 
@@ -92,8 +92,8 @@ KERNEL_FN real analytic_crossing(vec3 x0, vec3 x1, const analytic_body* body)
     }
     real t = sphere_entry(x0, step, body->center, body->radius);
     if (body->shape == CAPSULE_SHAPE) {
-        t = fmin(t, sphere_entry(x0, step, body->end, body->radius));
-        t = fmin(t, side_entry(x0, step, body->center, body->end, body->radius));
+        t = smaller(t, sphere_entry(x0, step, body->end, body->radius));
+        t = smaller(t, side_entry(x0, step, body->center, body->end, body->radius));
     }
     return t;
 }

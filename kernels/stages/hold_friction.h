@@ -22,6 +22,6 @@ KERNEL_FN void hold_friction_vertex(int vertex, const hold_friction_args* a)
     real limit = a->limit[vertex];
     if (limit <= REAL(0) || dot(v, v) > REAL(0)) return;
     vec3 f = load3(a->force, a->stride, vertex), t = f - dot(n, f) * n;
-    real way = a->stick_distance / fmax(limit, length(t));
+    real way = a->stick_distance / larger(limit, length(t));
     store3(a->anchor, a->stride, vertex, load3(a->pos, a->stride, vertex) - way * t);
 }

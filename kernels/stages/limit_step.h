@@ -17,7 +17,7 @@ KERNEL_FN void limit_step_vertex(int vertex, const limit_step_args* a)
 {
     vec3 n = load3(a->normal, a->stride, vertex), d = load3(a->direction, a->stride, vertex);
     real gap = dot(n, load3(a->pos, a->stride, vertex)) - a->offset[vertex];
-    real excess = fmax(gap, REAL(0)) * REAL(-0.9) - dot(n, d);
+    real excess = larger(gap, REAL(0)) * REAL(-0.9) - dot(n, d);
     if (gap > REAL(0) && excess > REAL(0) && dot(n, n) > REAL(0))
         store3(a->direction, a->stride, vertex, d + excess * n);
 }

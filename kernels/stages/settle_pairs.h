@@ -20,7 +20,7 @@ KERNEL_FN void settle_pair(int pair, const settle_pairs_args* a)
     int ps = a->contact.size.pair_stride;
     vec3 n = load3(a->contact.pair_normal, ps, pair), w = pair_way(pair, &a->friction);
     real limit = a->friction.pair_friction[pair] * cloth_contact_push(pair, &a->contact);
-    real part = fmin(REAL(1), a->friction.stick_distance / fmax(length(w), REAL(1e-30)));
+    real part = smaller(REAL(1), a->friction.stick_distance / larger(length(w), REAL(1e-30)));
     if (a->limit[pair] <= REAL(0) || limit <= REAL(0)) part = REAL(0);
     store3(a->bristle, ps, pair, part * (w - dot(n, w) * n));
     store3(a->held_normal, ps, pair, n);

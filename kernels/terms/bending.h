@@ -21,7 +21,7 @@ KERNEL_FN real bending_energy(int hinge, const bending_args* a)
     real s0 = a->hinge_rest_sine[hinge], c0 = sqrt(REAL(1) - s0 * s0);
     if (s0 == REAL(0))   // 1 - cos without cancellation at small angles
         return REAL(4) * a->scale * a->hinge_rigidity[hinge] * h.sine * h.sine / (REAL(1) + h.cosine);
-    real turn = REAL(2) * (asin(fmin(fmax(h.sine, REAL(-1)), REAL(1))) - asin(s0));
+    real turn = REAL(2) * (asin(smaller(larger(h.sine, REAL(-1)), REAL(1))) - asin(s0));
     return a->scale * a->hinge_rigidity[hinge] * (REAL(4) * (c0 - h.cosine) - REAL(2) * turn * s0);
 }
 

@@ -38,7 +38,7 @@ KERNEL_FN void bending_hysteresis_force(int hinge, const bending_hysteresis_args
     int hs = a->size.hinge_stride;
     hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
     real w = bending_hysteresis_way(hinge, &h, a), r = a->stick_curvature * a->hinge_width[hinge];
-    real moment = a->scale * a->hinge_hysteresis[hinge] * w / fmax(fabs(w), r) * h.cosine;
+    real moment = a->scale * a->hinge_hysteresis[hinge] * w / larger(fabs(w), r) * h.cosine;
     for (int i = 0; i < 4; ++i) add3(a->hinge_force + 3 * i * hs, hs, hinge, (-moment) * h.g[i]);
 }
 
@@ -47,7 +47,7 @@ KERNEL_FN void bending_hysteresis_stiffness(int hinge, const bending_hysteresis_
     int hs = a->size.hinge_stride;
     hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
     real w = bending_hysteresis_way(hinge, &h, a), r = a->stick_curvature * a->hinge_width[hinge];
-    real secant = a->scale * a->hinge_hysteresis[hinge] / fmax(fabs(w), r), moment = secant * w;
+    real secant = a->scale * a->hinge_hysteresis[hinge] / larger(fabs(w), r), moment = secant * w;
     real along = secant * h.cosine * h.cosine;
     mat3 t[4][4];
     if (!a->mode.projected) {

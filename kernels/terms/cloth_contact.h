@@ -36,7 +36,7 @@ KERNEL_FN void pair_frame(int pair, const cloth_contact_args* a)
     vec3 r = p.w[1] * (x1 - x0) + p.w[2] * (x2 - x0) + p.w[3] * (x3 - x0);
     real d = length(r);
     for (int i = 0; i < 4; ++i) a->pair_weight[i * ps + pair] = p.w[i];
-    store3(a->pair_normal, ps, pair, (REAL(1) / fmax(d, REAL(1e-30))) * r);
+    store3(a->pair_normal, ps, pair, (REAL(1) / larger(d, REAL(1e-30))) * r);
     a->pair_distance[pair] = d;
 }
 

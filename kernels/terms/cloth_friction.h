@@ -39,7 +39,7 @@ KERNEL_FN void cloth_friction_force(int pair, const cloth_friction_args* a)
 {
     int ps = a->size.pair_stride;
     vec3 w = pair_way(pair, a);
-    vec3 drag = (-a->scale * a->pair_limit[pair] / fmax(length(w), a->stick_distance)) * w;
+    vec3 drag = (-a->scale * a->pair_limit[pair] / larger(length(w), a->stick_distance)) * w;
     for (int i = 0; i < 4; ++i) add3(a->pair_force + 3 * i * ps, ps, pair, a->pair_held_weight[i * ps + pair] * drag);
 }
 
@@ -48,7 +48,7 @@ KERNEL_FN void cloth_friction_stiffness(int pair, const cloth_friction_args* a)
 {
     int ps = a->size.pair_stride;
     vec3 n = load3(a->pair_held_normal, ps, pair), w = pair_way(pair, a);
-    real q = length(w), k = a->scale * a->pair_limit[pair] / fmax(q, a->stick_distance);
+    real q = length(w), k = a->scale * a->pair_limit[pair] / larger(q, a->stick_distance);
     mat3 m = mat3_add_diagonal(outer3(-k, n, n), k * dot(n, n));
     if (q > a->stick_distance) m = mat3_add(m, outer3(-k / (q * q), w, w));
     add_block(a->pair_stiffness, ps, pair, 1, m);

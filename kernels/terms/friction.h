@@ -33,7 +33,7 @@ KERNEL_FN void friction_force(int vertex, const friction_args* a)
 {
     vec3 w = friction_way(vertex, a);
     real limit = a->scale * a->friction_limit[vertex];
-    add3(a->force, a->size.vertex_stride, vertex, (-limit / fmax(length(w), a->stick_distance)) * w);
+    add3(a->force, a->size.vertex_stride, vertex, (-limit / larger(length(w), a->stick_distance)) * w);
 }
 
 // Stiffness L / max(q, r) across the normal, less its part along w when sliding in the exact form.
@@ -42,7 +42,7 @@ KERNEL_FN void friction_stiffness(int vertex, const friction_args* a)
     int vs = a->size.vertex_stride;
     real limit = a->scale * a->friction_limit[vertex];
     vec3 n = load3(a->contact_normal, vs, vertex), w = friction_way(vertex, a);
-    real q = length(w), k = limit / fmax(q, a->stick_distance);
+    real q = length(w), k = limit / larger(q, a->stick_distance);
     mat3 m = mat3_add_diagonal(outer3(-k, n, n), k * dot(n, n));
     if (q > a->stick_distance) m = mat3_add(m, outer3(-k / (q * q), w, w));
     add_block(a->vertex_stiffness, vs, vertex, 0, m);

@@ -29,10 +29,10 @@ KERNEL_FN spring_state spring_at(int spring, const spring_args* a)
     vec3 d = load3(a->pos, vs, a->spring_vertex[ss + spring]) - load3(a->pos, vs, a->spring_vertex[spring]);
     real scale = a->spring_bends[spring] ? a->bend_scale : a->scale;
     spring_state s;
-    s.length = fmax(length(d), REAL(1e-12));   // two vertices in one place push in no direction
+    s.length = larger(length(d), REAL(1e-12));   // two vertices in one place push in no direction
     s.n = (REAL(1) / s.length) * d;
     s.extension = s.length - a->spring_length[spring];
-    s.over = fmax(s.length - a->spring_limit[spring], REAL(0));
+    s.over = larger(s.length - a->spring_limit[spring], REAL(0));
     s.k = scale * a->spring_constant[spring];
     s.k_over = scale * a->spring_constant[ss + spring] - s.k;
     s.tension = s.k * s.extension + s.k_over * s.over;
@@ -57,7 +57,7 @@ KERNEL_FN void spring_stiffness(int spring, const spring_args* a)
 {
     spring_state s = spring_at(spring, a);
     real across = s.tension / s.length;
-    if (a->mode.projected) across = fmax(across, REAL(0));
+    if (a->mode.projected) across = larger(across, REAL(0));
     real along = s.k + (s.over > REAL(0) ? s.k_over : REAL(0)) - across;
     add_block(a->spring_stiffness, a->size.spring_stride, spring, 0,
               mat3_add_diagonal(outer3(-along, s.n, s.n), -across));
