@@ -125,7 +125,7 @@
 
 #define CONTACT_KEYS(KEY, WORD, VEC3)                                                                            \
     KEY(double, gap, 0.002, "m", 1e-5, 0.05, "distance from the body at which contact pressure sets in")         \
-    KEY(double, stiffness, automatic, "Pa", 1e-3, 1e9, "pressure scale of the contact barrier; automatic: 100 times the cloth's weight per area") \
+    KEY(double, stiffness, automatic, "Pa", 1e-3, 1e9, "pressure scale of the contact barrier; automatic: 100 times the cloth's weight per area, or what brings it to the speed of the fastest body within the gap if that is more") \
     KEY(bool, body, true, "1", 0, 1, "contact between cloth and bodies")                                         \
     KEY(bool, self, true, "1", 0, 1, "contact of the cloth with itself; without it cloth passes through cloth")
 

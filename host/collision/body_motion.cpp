@@ -97,6 +97,15 @@ double BodyMotion::distance(double from, double to, const Box& box) const
     return way + rigid;
 }
 
+double BodyMotion::highest_speed(const Box& box) const
+{
+    constexpr int looks = 200;
+    const double dt = end() / looks;
+    double highest = 0;
+    for (int k = 0; k < looks && dt > 0; ++k) highest = std::max(highest, distance(k * dt, (k + 1) * dt, box) / dt);
+    return highest;
+}
+
 std::size_t BodyMotion::bytes() const
 {
     return poses_.empty() ? 0 : poses_.size() * poses_.front().vertices.size() * sizeof(Vec3);

@@ -45,6 +45,8 @@ public:
     /// Bounds the distance of any surface point between its places at two times [m].
     /// @param box  holds the body as it starts; poses are added to it
     double distance(double from, double to, const Box& box) const;
+    /// About the highest speed of any surface point [m/s]. @param box  as for distance
+    double highest_speed(const Box& box) const;
     std::size_t bytes() const;              ///< Of the poses.
 
 private:

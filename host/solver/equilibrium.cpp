@@ -149,6 +149,7 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
     newton.still = 3e-2;
     newton.decrement = 1e-2;
     newton.linear_tolerance = 0.2;
+    newton.most_left = 0.12 * phase.edge_length();
     while (progress.time < until - 1e-9) {
         // Steps end on frame times, so that frames show computed states and not interpolated ones.
         const double frame_end = frame_interval * (std::floor(progress.time / frame_interval + 1e-6) + 1);

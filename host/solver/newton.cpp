@@ -10,6 +10,8 @@
 namespace selvage {
 namespace {
 
+constexpr double nearly_done = 10;         // times what would be done: a direction that gains no more may fail
+constexpr double noise_of_promise = 1e-9;  // of the objective: what a direction may promise wrongly
 constexpr int most_held_up = 60;   // iterations while bodies or pins wait for the cloth to make way
 
 // Sum over vertices of the product of two fields with three components.
@@ -242,8 +244,11 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
         // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the force.
         // A way that has been cut short says nothing: what it would have been does.
         report.converged = !held_up && (wanted_move_ <= options.still * span_ ||
-                                        promised_ <= options.decrement * terms_.kinetic_energy());
+                                        (promised_ <= options.decrement * terms_.kinetic_energy() &&
+                                         wanted_move_ <= options.most_left));
         report.stuck = !std::isfinite(slope) || !search_line(slope, options);
+        report.nearly = report.stuck && promised_ <= nearly_done * options.decrement * terms_.kinetic_energy() +
+                                                         noise_of_promise * std::abs(objective());
         if ((report.stuck && !held_up) || report.converged) return report;
     }
 }

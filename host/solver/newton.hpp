@@ -15,6 +15,7 @@ struct NewtonOptions {
     double still = 0;                  ///< A step is also done when an iteration moves no vertex faster than this [m/s].
     double decrement = 0;              ///< A step is also done when an iteration promises less than this part of the
                                        ///< kinetic energy [1].
+    double most_left = 1e300;          ///< But not while an iteration wants to move a vertex further than this [m].
     double linear_tolerance = 0.05;    ///< Relative residual of the linear solves [1].
     double max_move = 0.02;            ///< Largest way of a vertex near a body in one iteration [m].
     double max_far_move = 0.1;         ///< Largest way of a vertex that is not near one, if there are bodies [m].
@@ -24,6 +25,7 @@ struct NewtonOptions {
 struct NewtonReport {
     bool converged = false;            ///< The tolerance was met.
     bool stuck = false;                ///< No step along the direction lowered the objective.
+    bool nearly = false;               ///< Stuck where hardly anything was left to gain.
     int iterations = 0;
     int linear_iterations = 0;
     double residual = 0;               ///< Gradient norm over the force scale, at the end [1].

@@ -33,7 +33,7 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
              const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
     : options_(options), topology_(phase_topology(model, options)),
       state_(make_state(topology_, model.cloth, model.fabrics, options.params, positions, velocities)),
-      pins_(model.cloth, topology_)
+      pins_(model.cloth, topology_), edge_length_(typical_edge(model.cloth))
 {
     const bool multigrid = options.linear.preconditioner == Preconditioner::multigrid;
     const ParticleTransfers transfers =

@@ -49,6 +49,7 @@ public:
     const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
     /// Looks for contacts, intersections and cloth inside bodies afresh: where the state has been set from outside.
     void look_around();
+    double edge_length() const { return edge_length_; }   ///< Of a typical edge at rest [m].
     double motion_end() const;   ///< Time after which bodies and pins stand still [s]; 0 if none moves.
     /// The longest part of `room`, from a time on, in which bodies and pins move no further than a step may.
     double longest_step(double time, double room) const;
@@ -66,6 +67,7 @@ private:
     Topology topology_;
     State state_;
     PinPaths pins_;
+    double edge_length_;
     std::unique_ptr<LinearSolver> linear_;
     std::unique_ptr<FabricContact> contact_;
     std::unique_ptr<ClothContact> cloth_contact_;

@@ -32,7 +32,15 @@ double contact_stiffness(const Scene& scene, const SceneModel& model)
     double heaviest = 0;
     for (const auto& [name, fabric] : model.model.fabrics) heaviest = std::max(heaviest, fabric.areal_density);
     const double gravity = scene.solver.gravity.norm();
-    return 100 * heaviest * (gravity > 0 ? gravity : 9.81);
+    double fastest = 0;
+    for (const Body& body : model.model.bodies) {
+        if (!body.motion) continue;
+        Box box;
+        for (const Vec3& x : body.mesh.vertices) box.extend(x);
+        fastest = std::max(fastest, body.motion->highest_speed(box));
+    }
+    // What a body drives before it has to gain its speed within the gap.
+    return heaviest * std::max(100 * (gravity > 0 ? gravity : 9.81), fastest * fastest / scene.contact.gap);
 }
 
 // Where cloth begins to press on cloth: at its thickness, or at contact.gap if that is more, but well below the length

@@ -79,7 +79,7 @@ bool StepControl::attempt(double dt, const NewtonOptions& options, bool accurate
     if (!std::isfinite(report_.residual) || !is_finite(phase_.state())) return false;
     if (!cloth_is_clear()) return false;
     if (report_.stuck && report_.iterations == 0 && report_.residual > 10 * options.tolerance) return false;
-    return !accurate || report_.converged || report_.stuck;
+    return !accurate || report_.converged || report_.nearly;
 }
 
 // Fits the next step to the estimated error of the one just taken, which goes with a known power of its length.
