@@ -79,7 +79,7 @@ KernelCloth::KernelCloth(int vertex_count) : params(all_strengths())
 
     make_bodies();
     contact = std::make_unique<FabricContact>(*query, bodies, topology, cloth, fabrics, params.body_contact.gap,
-                                              contact_margin);
+                                              contact_margin, true);
     contact->update(state);
     load_friction();
     put_pairs();

@@ -43,13 +43,14 @@ bool clear_by_vertices(const Body& body, const Cloth& cloth)
 }
 
 FabricContact::FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology,
-                             const Cloth& cloth, const FabricTable& fabrics, double gap, double margin)
+                             const Cloth& cloth, const FabricTable& fabrics, double gap, double margin, bool by_faces)
     : query_(query), fabric_friction_(particle_friction(topology, cloth, fabrics)),
       body_of_vertex_(std::size_t(topology.particle_count), -1), gap_(gap), margin_(margin)
 {
     for (const Body& body : bodies) {
         body_friction_.push_back(body.friction);
-        body_sag_.push_back(std::min(chord_sag(body, cloth), most_sag));
+        const bool by_vertices = !by_faces || clear_by_vertices(body, cloth);
+        body_sag_.push_back(by_vertices ? std::min(chord_sag(body, cloth), most_sag) : 0);
     }
 }
 

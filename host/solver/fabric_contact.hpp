@@ -23,8 +23,9 @@ class FabricContact final : public ContactField {
 public:
     /// @param gap      distance at which contact sets in [m]
     /// @param margin   further distance within which a vertex already knows its surface [m]
+    /// @param by_faces  edges and faces are kept off those bodies that cloth is not clear of whose vertices are
     FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology, const Cloth& cloth,
-                  const FabricTable& fabrics, double gap, double margin);
+                  const FabricTable& fabrics, double gap, double margin, bool by_faces);
 
     void update(State& state) override;
     bool crossed(const State& state, const std::vector<real>& from) override;

@@ -42,7 +42,8 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
                                    : make_linear_solver_double(state_, options.linear, transfers);
     if (query && !state_.contact_normal.empty())
         contact_ = std::make_unique<FabricContact>(*query, model.bodies, topology_, model.cloth, model.fabrics,
-                                                   options.params.body_contact.gap, options.contact_margin);
+                                                   options.params.body_contact.gap, options.contact_margin,
+                                                   options.params.cloth_contact.stiffness > 0);
     if (options.params.cloth_contact.stiffness > 0)
         cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, query ? model.bodies : std::vector<Body>{},
                                                         options.params.cloth_contact.gap,
