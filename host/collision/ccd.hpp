@@ -17,11 +17,17 @@ using PairCorners = std::array<Vec3, 4>;
 inline float rounded_up(double x) { return float(x * (1 + 0x1p-23)); }
 inline float rounded_down(double x) { return float(x * (1 - 0x1p-23)); }
 
+/// Returns the weights of the corners in the way from the closest point of the second side to that of the first [1].
+inline pair_weights closest_weights(const PairCorners& x, bool edges)
+{
+    const auto at = [&](int i) { return make_vec3(x[i].x(), x[i].y(), x[i].z()); };
+    return edges ? closest_edge_edge(at(0), at(1), at(2), at(3)) : closest_point_face(at(0), at(1), at(2), at(3));
+}
+
 /// Returns the distance of the two sides [m].
 inline double pair_distance(const PairCorners& x, bool edges)
 {
-    const auto at = [&](int i) { return make_vec3(x[i].x(), x[i].y(), x[i].z()); };
-    const pair_weights p = edges ? closest_edge_edge(at(0), at(1), at(2), at(3)) : closest_point_face(at(0), at(1), at(2), at(3));
+    const pair_weights p = closest_weights(x, edges);
     return (p.w[1] * (x[1] - x[0]) + p.w[2] * (x[2] - x[0]) + p.w[3] * (x[3] - x[0])).norm();
 }
 

@@ -78,9 +78,9 @@ double ClothTree::Gradients::stretch_bound() const
 
 // Boxes in the moving frame, grown by half of the reach and by slack: a little more the further a corner goes, since the
 // next move will go elsewhere by a part of it. Bodies that stand still need no slack.
-void ClothTree::refit_boxes(bool bodies_move)
+void ClothTree::refit_boxes(bool bodies_move, bool bodies_too)
 {
-    parallel(int(start_.size()), [&](int k) {
+    parallel(bodies_too ? int(start_.size()) : particles_, [&](int k) {
         const bool still = k >= particles_ && !bodies_move;
         slack_of_[k] = still ? 0 : float(slack_ + slack_of_way * (end_[k] - start_[k]).norm());
         const float grown = slack_of_[k] + float(still ? body_reach_ - 0.5 * reach_ : 0.5 * reach_);
@@ -95,16 +95,18 @@ void ClothTree::refit_boxes(bool bodies_move)
     searched_start_ = start_;
     searched_end_ = end_;
     parallel(int(surface_.faces.size()), [&](int f) {
+        if (!bodies_too && surface_.faces[f][0] < 0) return;
         face_box_[f].clear();
         for (int corner : surface_.faces[f]) face_box_[f].add(corner_box_[slot(corner)]);
     });
     parallel(int(nodes_.size()), [&](int n) {
+        if (!bodies_too && is_body(n)) return;
         node_box_[n].clear();
         if (nodes_[n].right > 0) return;
         for (int k = 0; k < nodes_[n].count; ++k) node_box_[n].add(face_box_[order_[nodes_[n].first + k]]);
     });
     for (int n = int(nodes_.size()) - 1; n >= 0; --n)
-        if (nodes_[n].right > 0) {
+        if (nodes_[n].right > 0 && (bodies_too || !is_body(n))) {
             node_box_[n].add(node_box_[n + 1]);
             node_box_[n].add(node_box_[nodes_[n].right]);
         }
@@ -213,9 +215,11 @@ bool ClothTree::cover(const double* from, const double* move, int stride, const 
         ++counts_.reused;
         return false;
     }
+    const bool bodies_as_before =
+        !bodies.moves && bodies.version == body_version_ && reach == reach_ && body_reach == body_reach_;
     reach_ = reach;
     body_reach_ = body_reach;
-    refit_boxes(bodies.moves);
+    refit_boxes(bodies.moves, !bodies_as_before);
     // What has been on the way of a moving body is not what is around it when it stands still.
     body_version_ = bodies.moves ? -1 : bodies.version;
     search();

@@ -126,7 +126,7 @@ private:
     bool still_complete(const TreeBodies& bodies, double reach, double body_reach) const;
     double part_gone() const;
     void refit_gradients();
-    void refit_boxes(bool bodies_move);
+    void refit_boxes(bool bodies_move, bool bodies_too);
     void search();
     void visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
                std::vector<PairCandidate>& found) const;

@@ -344,31 +344,76 @@ void ClothContact::place_bodies(State& state, double time)
     show_bodies(state);
 }
 
+std::vector<Vec3> ClothContact::ways_of_bodies() const
+{
+    std::vector<Vec3> ways(body_now_.size());
+    for (std::size_t k = 0; k < ways.size(); ++k) ways[k] = body_goal_[k] - body_now_[k];
+    if (std::all_of(ways.begin(), ways.end(), [](const Vec3& u) { return u.isZero(0); })) ways.clear();
+    return ways;
+}
+
+// Lets vertices go along with the nearest point of a body that comes towards them or holds them.
+// @param way  that of the bodies alone, looked at before
+void ClothContact::ride(const State& state, const Way& way, std::vector<real>& move) const
+{
+    const std::vector<PairCandidate>& candidates = tree_.candidates();
+    std::vector<int> nearest(area_.size(), -1);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const auto& c = candidates[k].corner;
+        if (!looks_[k].near || looks_[k].distance > gap_) continue;
+        if (std::max(c[0], c[3]) < 0 || std::min(c[0], c[3]) >= 0) continue;
+        for (int v : c)
+            if (v >= 0 && (nearest[v] < 0 || looks_[k].distance < looks_[nearest[v]].distance)) nearest[v] = int(k);
+    }
+    for_each_item(int(area_.size()), [&, this](int v) {
+        if (nearest[v] < 0 || state.inv_mass[v] == 0) return;
+        const PairCandidate& candidate = candidates[nearest[v]];
+        const PairCorners x = places(candidate, way);
+        const pair_weights p = closest_weights(x, candidate.edges);
+        Vec3 from_body = Vec3::Zero(), shift = Vec3::Zero();
+        double sum = 0;
+        for (int i = 0; i < 4; ++i) {
+            from_body += p.w[i] * x[i];
+            if (candidate.corner[i] >= 0) continue;
+            sum += p.w[i];
+            shift += p.w[i] * (*way.body_move)[-1 - candidate.corner[i]];
+        }
+        shift /= sum;
+        if (candidate.corner[0] < 0) from_body = -from_body;
+        const bool held = !state.friction_limit.empty() && state.friction_limit[v] > 0;
+        if (!held && shift.dot(from_body) <= 0) return;
+        for (int c = 0; c < 3; ++c) move[c * way.stride + v] = shift[c];
+    });
+}
+
 bool ClothContact::advance_held(State& state)
 {
     if (!pending_) return false;
     const int vs = state.size.vertex_stride;
     std::vector<real> move(state.pos.size());
+    const std::vector<Vec3> body_move = ways_of_bodies();
+    const Way way{state.pos, &move, body_move.empty() ? nullptr : &body_move, vs};
+    if (way.body_move) {
+        cover(state, way);
+        ride(state, way, move);
+    }
     for (const auto& [particle, goal] : pins_)
         for (int c = 0; c < 3; ++c) move[c * vs + particle] = goal[c] - state.pos[c * vs + particle];
-    std::vector<Vec3> body_move(body_now_.size());
-    for (std::size_t k = 0; k < body_now_.size(); ++k) body_move[k] = body_goal_[k] - body_now_[k];
-    const bool bodies_move = std::any_of(body_move.begin(), body_move.end(), [](const Vec3& u) { return !u.isZero(0); });
-    const Way way{state.pos, &move, bodies_move ? &body_move : nullptr, vs};
     cover(state, way);
     held_.assign(seen_.size(), 0);
     keep_ = held_keep;
     const float part = scale_all(way);
     keep_ = keep;
-    for (const auto& [particle, goal] : pins_)
-        for (int c = 0; c < 3; ++c)
-            state.pos[c * vs + particle] = part == 1 ? goal[c] : state.pos[c * vs + particle] + part * move[c * vs + particle];
-    for (std::size_t k = 0; k < body_now_.size(); ++k)
-        body_now_[k] = part == 1 ? body_goal_[k] : Vec3(body_now_[k] + part * body_move[k]);
-    pending_ = part < 1;
-    body_version_ += bodies_move;
     time_ = part == 1 ? goal_time_ : time_ + part * (goal_time_ - time_);
     if (carry_) carry_(state, time_);
+    for_each_item(int(move.size()), [&](int i) { state.pos[i] += part * move[i]; });
+    if (part == 1)
+        for (const auto& [particle, goal] : pins_)
+            for (int c = 0; c < 3; ++c) state.pos[c * vs + particle] = goal[c];
+    for (std::size_t k = 0; k < body_move.size(); ++k)
+        body_now_[k] = part == 1 ? body_goal_[k] : Vec3(body_now_[k] + part * body_move[k]);
+    pending_ = part < 1;
+    body_version_ += !body_move.empty();
     show_bodies(state);
     update(state);
     return pending_;

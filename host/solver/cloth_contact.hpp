@@ -62,7 +62,8 @@ public:
     void set_carry(Carry carry) { carry_ = std::move(carry); }
     /// Sets where bodies and held particles are to be at the end of a step. @param pins  particle and place [m]
     void aim(const std::vector<std::pair<int, Vec3>>& pins, double time);
-    /// Moves them on as far as the cloth makes way. @returns true if they are not there yet
+    /// Moves them on as far as the cloth makes way; what bodies push or hold by friction goes along with their surface.
+    /// @returns true if they are not there yet
     bool advance_held(State& state);
     bool held_up() const { return pending_; }
     /// Puts bodies where they are at a time, at the start or when a step is given up.
@@ -122,6 +123,8 @@ private:
     void find_tangles(const State& state);
     void find_inside(const State& state);
     void show_bodies(State& state) const;
+    std::vector<Vec3> ways_of_bodies() const;
+    void ride(const State& state, const Way& way, std::vector<real>& move) const;
 
     double gap_, body_gap_;
     std::vector<double> friction_, area_;          // per particle

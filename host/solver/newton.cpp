@@ -228,11 +228,21 @@ bool Newton::search_line(double slope, const NewtonOptions& options)
     return false;
 }
 
+// Moves bodies and pins on, with what they push. Returns whether they are not where they are to be yet.
+bool Newton::advance_held()
+{
+    if (!cloth_ || !cloth_->held_up()) return false;
+    const bool held_up = profile_.timed("advance_held", state_.size.vertex_count, 0, [&] { return cloth_->advance_held(state_); });
+    base_ = state_.pos;
+    place(0);
+    return held_up;
+}
+
 NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
 {
     NewtonReport report;
     for (;; ++report.iterations) {
-        const bool held_up = cloth_ && cloth_->advance_held(state_);
+        const bool held_up = advance_held();
         if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
         if (settle_each) settle();
         evaluate_gradient();

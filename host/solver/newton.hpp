@@ -80,6 +80,7 @@ private:
     double longest_fraction(const NewtonOptions& options) const;
     void place(double fraction);
     void keep_outside_bodies();
+    bool advance_held();
     void clear_way(bool uniform);
     void scale_to_longest(const NewtonOptions& options);
     void guess_step(const NewtonOptions& options, const std::vector<real>* expected);
