@@ -15,6 +15,7 @@ namespace selvage {
 namespace {
 
 constexpr double drawn_plane_width = 4;     // [m]
+constexpr double flattest = 1.2e-4;         // how far a sphere may rise above its tessellation, if a level does it [m]
 constexpr double least_length = 1e-6;       // a direction shorter than this [m] cannot be meant
 
 std::string body_key(int index, const char* key) { return fmt::format("body[{}].{}", index, key); }
@@ -57,6 +58,14 @@ void place(const BodyScene& body_scene, std::vector<Vec3>& vertices)
     for (Vec3& vertex : vertices) vertex = turn * vertex + body_scene.center;
 }
 
+// Level of the icosahedron's refinement: the middle of a face of level k is about 0.18 / 4^k radii below the sphere.
+int sphere_level(double radius)
+{
+    int level = 3;
+    while (level < 5 && 0.18 * radius / (1 << 2 * level) > flattest) ++level;
+    return level;
+}
+
 }  // namespace
 
 TriangleMesh body_mesh_at(const Body& body, double time)
@@ -80,7 +89,7 @@ Body make_body(const BodyScene& body_scene, const Scene& scene, int index)
     if (body_scene.shape == "sphere") {
         body.kind = Body::Kind::sphere;
         body.radius = body_scene.radius;
-        body.mesh = sphere_mesh(body.center, body.radius, 5);
+        body.mesh = sphere_mesh(body.center, body.radius, sphere_level(body.radius));
     } else if (body_scene.shape == "plane") {
         body.kind = Body::Kind::plane;
         if (!(body_scene.normal.norm() > least_length))

@@ -180,7 +180,7 @@ TriangleMesh cone_mesh(const Vec3& center, double radius, double height, int seg
 
 TriangleMesh torus_mesh(const Vec3& center, const Vec3& axis, double radius, double tube)
 {
-    constexpr int around = 192, across = 48;
+    constexpr int around = 128, across = 32;
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis);
     TriangleMesh mesh;
     for (int i = 0; i < around; ++i)

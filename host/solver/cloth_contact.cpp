@@ -49,6 +49,8 @@ ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const s
     for (const Body& body : bodies_)
         body_now_.insert(body_now_.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
     body_goal_ = body_now_;
+    // What moving bodies push goes along with them: it has to be known from where vertices are pressed on.
+    body_reach_ = any_moves(bodies_) ? gap_ : body_gap_;
 }
 
 Vec3 ClothContact::place(int corner, const Way& way) const
@@ -100,7 +102,7 @@ void ClothContact::cover(const State& state, const Way& way)
 {
     const int vs = state.size.vertex_stride;
     const bool afresh = tree_.cover(state.pos.data(), way.move ? way.move->data() : nullptr, vs,
-                                    {body_now_, way.body_move, body_version_}, gap_, body_gap_);
+                                    {body_now_, way.body_move, body_version_}, gap_, body_reach_);
     look_at_all(state, way, afresh);
 }
 
@@ -353,7 +355,7 @@ std::vector<Vec3> ClothContact::ways_of_bodies() const
 }
 
 // Lets vertices go along with the nearest point of a body that comes towards them or holds them.
-// @param way  that of the bodies alone, looked at before
+// @param way  that of the bodies alone; who is near has been looked at
 void ClothContact::ride(const State& state, const Way& way, std::vector<real>& move) const
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
@@ -394,7 +396,7 @@ bool ClothContact::advance_held(State& state)
     const std::vector<Vec3> body_move = ways_of_bodies();
     const Way way{state.pos, &move, body_move.empty() ? nullptr : &body_move, vs};
     if (way.body_move) {
-        cover(state, way);
+        cover(state, {state.pos, nullptr, nullptr, vs});
         ride(state, way, move);
     }
     for (const auto& [particle, goal] : pins_)

@@ -126,7 +126,7 @@ private:
     std::vector<Vec3> ways_of_bodies() const;
     void ride(const State& state, const Way& way, std::vector<real>& move) const;
 
-    double gap_, body_gap_;
+    double gap_, body_gap_, body_reach_ = 0;
     std::vector<double> friction_, area_;          // per particle
     std::vector<Face> faces_;                      // of particles
     std::vector<Body> bodies_;                     // those in the tree
