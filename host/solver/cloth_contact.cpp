@@ -12,6 +12,9 @@ namespace {
 
 constexpr double keep = 0.1;             // part of a pair's distance that a move leaves, or of the gap if that is less
 constexpr double held_keep = 0.5;        // the same for moves of bodies and held vertices: cloth makes way in between
+constexpr double scarce = 1e-6;          // part of the gap: pairs as near as that come nearer by small parts only
+constexpr double held_scarce = 1e-4;     // the same for moves of bodies and held vertices
+constexpr double nearly_all = 0.9;       // such a small part leaves this much
 constexpr double slack_of_edge = 0.1;   // slack of the tree's boxes, of an edge length
 constexpr double body_part = 0.25;       // of the gap: where edges and corners of bodies press; before, vertices do
 constexpr int rounds = 4;                // of holding vertices back before the whole move is scaled
@@ -36,7 +39,7 @@ TreeSurface whole_surface(const Topology& topology, const Cloth& cloth, const st
 ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
                            std::vector<double> friction)
     : gap_(gap), body_gap_(body_part * gap), friction_(std::move(friction)), area_(std::size_t(topology.particle_count)),
-      faces_(topology.faces), bodies_(touchable(bodies, cloth)), keep_(keep),
+      faces_(topology.faces), bodies_(touchable(bodies, cloth)), keep_(keep), nearest_(scarce * gap),
       tree_(whole_surface(topology, cloth, bodies_), slack_of_edge * typical_edge(cloth)), tangled_(area_.size()),
       inside_(area_.size())
 {
@@ -83,6 +86,13 @@ double ClothContact::gap_of(const PairCandidate& candidate) const
     if (std::min(candidate.corner[0], candidate.corner[3]) >= 0) return gap_;
     // A vertex on a body is pressed by the body's plane already.
     return candidate.edges || candidate.corner[0] < 0 ? body_gap_ : 0;
+}
+
+// How near a pair may come in one move: many moves one after the other must not lead to where rounding decides.
+double ClothContact::least_distance(const Look& look) const
+{
+    const double distance = std::min<double>(look.distance, gap_);
+    return distance > 2 * nearest_ ? std::max(keep_ * distance, nearest_) : nearly_all * distance;
 }
 
 // Cloth that is on the wrong side of something has to get out again.
@@ -388,24 +398,32 @@ void ClothContact::ride(const State& state, const Way& way, std::vector<real>& m
     });
 }
 
-bool ClothContact::advance_held(State& state)
+bool ClothContact::advance_held(State& state, const Follow& follow)
 {
     if (!pending_) return false;
     const int vs = state.size.vertex_stride;
     std::vector<real> move(state.pos.size());
     const std::vector<Vec3> body_move = ways_of_bodies();
     const Way way{state.pos, &move, body_move.empty() ? nullptr : &body_move, vs};
+    bool pins_move = false;
+    for (const auto& [particle, goal] : pins_)
+        for (int c = 0; c < 3; ++c) {
+            real& u = move[c * vs + particle];
+            u = goal[c] - state.pos[c * vs + particle];
+            pins_move = pins_move || u != 0;
+        }
+    if (pins_move) follow(move);
     if (way.body_move) {
         cover(state, {state.pos, nullptr, nullptr, vs});
         ride(state, way, move);
     }
-    for (const auto& [particle, goal] : pins_)
-        for (int c = 0; c < 3; ++c) move[c * vs + particle] = goal[c] - state.pos[c * vs + particle];
     cover(state, way);
     held_.assign(seen_.size(), 0);
     keep_ = held_keep;
+    nearest_ = held_scarce * gap_;
     const float part = scale_all(way);
     keep_ = keep;
+    nearest_ = scarce * gap_;
     time_ = part == 1 ? goal_time_ : time_ + part * (goal_time_ - time_);
     if (carry_) carry_(state, time_);
     for_each_item(int(move.size()), [&](int i) { state.pos[i] += part * move[i]; });

@@ -62,9 +62,12 @@ public:
     void set_carry(Carry carry) { carry_ = std::move(carry); }
     /// Sets where bodies and held particles are to be at the end of a step. @param pins  particle and place [m]
     void aim(const std::vector<std::pair<int, Vec3>>& pins, double time);
+    /// Given the moves of held particles, sets those of the others (planes like pos) [m].
+    using Follow = std::function<void(std::vector<real>&)>;
     /// Moves them on as far as the cloth makes way; what bodies push or hold by friction goes along with their surface.
+    /// @param follow  how the cloth would follow pins
     /// @returns true if they are not there yet
-    bool advance_held(State& state);
+    bool advance_held(State& state, const Follow& follow);
     bool held_up() const { return pending_; }
     /// Puts bodies where they are at a time, at the start or when a step is given up.
     void place_bodies(State& state, double time);
@@ -105,7 +108,7 @@ private:
     PairCorners moves(const PairCandidate& candidate, const Way& way) const;
     int slot(int corner) const { return corner >= 0 ? corner : int(area_.size()) - 1 - corner; }
     double gap_of(const PairCandidate& candidate) const;
-    double least_distance(const Look& look) const { return keep_ * std::min<double>(look.distance, gap_); }
+    double least_distance(const Look& look) const;
     bool may_pass(const PairCandidate& candidate) const;
 
     void cover(const State& state, const Way& way);
@@ -135,7 +138,7 @@ private:
     int body_version_ = 0;                         // changes with body_now_
     Carry carry_;
     double time_ = 0, goal_time_ = 0;              // where bodies are and are to be [s]
-    double keep_;                                  // part of a distance that a move leaves
+    double keep_, nearest_;                        // part of a distance that a move leaves; where it gets scarce [m]
     bool pending_ = false;                         // bodies or pins are not where they are to be
     ClothTree tree_;
     std::vector<Look> looks_;                      // per candidate

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double nearly_done = 10;         // times what would be done: a direction that gains no more may fail
 constexpr double noise_of_promise = 1e-9;  // of the objective: what a direction may promise wrongly
+constexpr double linear_tolerance_of_following = 0.1;
 constexpr int most_held_up = 60;   // iterations while bodies or pins wait for the cloth to make way
 
 // Sum over vertices of the product of two fields with three components.
@@ -77,6 +78,7 @@ void Newton::assemble(bool projected)
     // d2/dx2 of h R(v) is 1/h of d2R/dv2.
     terms_.evaluate_stiffness(projected, inertia_ > 0 ? 1 / span_ : 0);
     profile_.timed("assemble", state_.size.vertex_count, 0, [&] { linear_.assemble(state_, inertia_); });
+    assembled_ = true;
 }
 
 // Solves for the direction; returns the slope of the objective along it (negative).
@@ -228,11 +230,28 @@ bool Newton::search_line(double slope, const NewtonOptions& options)
     return false;
 }
 
+// The first-order answer of the free vertices to moves of pinned ones: K_ff d = -K_fp u.
+void Newton::follow_pins(std::vector<real>& move)
+{
+    if (!assembled_) assemble(true);
+    linear_.multiply(move.data(), downhill_.data());
+    for_each_item(int(move.size()), [this, vs = state_.size.vertex_stride](int i) {
+        downhill_[i] = i % vs < state_.size.vertex_count && state_.inv_mass[i % vs] != 0 ? -downhill_[i] : 0;
+    });
+    linear_.solve(downhill_.data(), linear_tolerance_of_following, direction_.data());
+    if (contact_) keep_outside_bodies();
+    for_each_item(int(move.size()), [&, this, vs = state_.size.vertex_stride](int i) {
+        if (state_.inv_mass[i % vs] != 0) move[i] = direction_[i];
+    });
+}
+
 // Moves bodies and pins on, with what they push. Returns whether they are not where they are to be yet.
 bool Newton::advance_held()
 {
     if (!cloth_ || !cloth_->held_up()) return false;
-    const bool held_up = profile_.timed("advance_held", state_.size.vertex_count, 0, [&] { return cloth_->advance_held(state_); });
+    const bool held_up = profile_.timed("advance_held", state_.size.vertex_count, 0, [&] {
+        return cloth_->advance_held(state_, [this](std::vector<real>& move) { follow_pins(move); });
+    });
     base_ = state_.pos;
     place(0);
     return held_up;
@@ -268,6 +287,7 @@ NewtonReport Newton::minimise(double span, const std::vector<real>& origin, cons
 {
     if (cloth_) cloth_->start_step();
     span_ = span;
+    assembled_ = false;
     inertia_ = 1 / (span * span);
     start_ = state_.pos;
     origin_ = origin;
@@ -296,6 +316,7 @@ void Newton::settle()
 NewtonReport Newton::relax(const NewtonOptions& options)
 {
     span_ = 0;
+    assembled_ = false;
     inertia_ = 0;
     start_ = origin_ = state_.pos;
     std::fill(state_.vel.begin(), state_.vel.end(), 0);

@@ -80,6 +80,7 @@ private:
     double longest_fraction(const NewtonOptions& options) const;
     void place(double fraction);
     void keep_outside_bodies();
+    void follow_pins(std::vector<real>& move);
     bool advance_held();
     void clear_way(bool uniform);
     void scale_to_longest(const NewtonOptions& options);
@@ -97,6 +98,7 @@ private:
     double promised_ = 0, wanted_move_ = 0;   ///< Of the last direction, before anything stood in its way [J], [m].
     double inertia_ = 0;   ///< 1/h^2; 0 for the static energy [1/s^2].
     double span_ = 0;      ///< h [s]
+    bool assembled_ = false;   ///< The linear solver has a matrix of this step.
     std::vector<real> start_, origin_, target_, base_, downhill_, direction_, free_direction_;
 };
 

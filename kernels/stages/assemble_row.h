@@ -1,7 +1,7 @@
 // Assembles one row of 3x3 blocks of the stiffness matrix from the element stiffness slots around a vertex.
 //     A_ij = sum over elements with corners (a at i, b at j) of K_ab,   i != j
 //     A_ii = -sum over elements with corner a at i of sum_b K_ab  +  vertex stiffness + inertia m_i I
-// Rows and columns of pinned vertices become those of the identity.
+// Rows of pinned vertices become those of the identity; their columns stay and tell how others follow them.
 #pragma once
 #include "../linear_scalar.h"
 #include "../term_args.h"
@@ -72,7 +72,7 @@ KERNEL_FN void assemble_finish(int row, const assemble_args* a)
     for (int k = a->row_begin[row]; k < a->row_begin[row + 1]; ++k) {
         GLOBAL linear* to = a->block + 9 * k;
         int diagonal = a->column[k] == row;
-        if (pinned || a->inv_mass[a->column[k]] == REAL(0)) {
+        if (pinned) {
             for (int c = 0; c < 9; ++c) to[c] = diagonal && c % 4 == 0;
         } else if (diagonal) {
             for (int c = 0; c < 9 && a->vertex_stiffness; ++c)
