@@ -41,7 +41,7 @@ ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const s
     : gap_(gap), body_gap_(body_part * gap), friction_(std::move(friction)), area_(std::size_t(topology.particle_count)),
       faces_(topology.faces), bodies_(touchable(bodies, cloth)), keep_(keep), nearest_(scarce * gap),
       tree_(whole_surface(topology, cloth, bodies_), slack_of_edge * typical_edge(cloth)), tangled_(area_.size()),
-      inside_(area_.size())
+      inside_(area_.size()), pierced_(area_.size())
 {
     for (std::size_t f = 0; f < cloth.faces.size(); ++f) {
         const Face& c = cloth.faces[f];
@@ -289,7 +289,7 @@ void ClothContact::find_inside(const State& state)
 std::vector<real> ClothContact::faults() const
 {
     std::vector<real> result(inside_.size());
-    for (std::size_t v = 0; v < result.size(); ++v) result[v] = inside_[v] + 2 * tangled_[v];
+    for (std::size_t v = 0; v < result.size(); ++v) result[v] = inside_[v] + 2 * tangled_[v] + 4 * pierced_[v];
     return result;
 }
 
@@ -299,6 +299,7 @@ void ClothContact::set_faults(const std::vector<real>& faults)
     for (std::size_t v = 0; v < inside_.size(); ++v) {
         inside_[v] = int(faults[v]) & 1;
         tangled_[v] = int(faults[v]) >> 1 & 1;
+        pierced_[v] = int(faults[v]) >> 2 & 1;
         counts_.inside += inside_[v];
         counts_.tangles += tangled_[v];
     }
@@ -310,6 +311,7 @@ void ClothContact::find_tangles(const State& state)
     std::vector<Vec3> x(static_cast<std::size_t>(n));
     for (int v = 0; v < n; ++v) x[v] = {state.pos[v], state.pos[vs + v], state.pos[2 * vs + v]};
     std::fill(tangled_.begin(), tangled_.end(), 0);
+    std::fill(pierced_.begin(), pierced_.end(), 0);
     const auto mark = [this](int face) {
         for (int v : faces_[face]) tangled_[v] = 1;
     };
@@ -326,6 +328,7 @@ void ClothContact::find_tangles(const State& state)
         first += mesh.vertices.size();
         for (const auto& [a, b] : mutual_intersections(x, faces_, mesh)) {
             mark(a);
+            for (int v : faces_[a]) pierced_[v] = 1;
             ++counts_.tangles;
         }
     }

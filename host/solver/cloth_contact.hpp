@@ -79,8 +79,11 @@ public:
     std::vector<real>& memory() { return memory_; }
     const std::vector<real>& memory() const { return memory_; }
 
+    /// Per particle: 1 if it belongs to a triangle that a body pierces.
+    const std::vector<char>& pierced() const { return pierced_; }
+
     /// What is known of each particle's faults, for checkpoints: 1 if it started inside a body and is still there, plus 2
-    /// if it belongs to a triangle that may pass through others.
+    /// if it belongs to a triangle that may pass through others, plus 4 if a body pierces that.
     std::vector<real> faults() const;
     void set_faults(const std::vector<real>& faults);   ///< As `faults` gave them.
 
@@ -145,7 +148,7 @@ private:
     std::vector<Vec3> seen_;                       // per corner: where it was at the last look [m]
     std::vector<float> gone_, way_;                // per corner: how far it has gone since, and is to go [m]
     std::vector<char> held_;                       // per corner: held back in the last move
-    std::vector<char> tangled_, inside_;           // per particle
+    std::vector<char> tangled_, inside_, pierced_; // per particle
     std::vector<int> listed_;                      // candidates that are pairs now, in the pairs' order
     std::vector<real> memory_;
     ClothContactCounts counts_;

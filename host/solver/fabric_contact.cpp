@@ -54,13 +54,21 @@ FabricContact::FabricContact(BodyQuery& query, const std::vector<Body>& bodies, 
     }
 }
 
+void FabricContact::lift(const std::vector<char>& pierced, double by)
+{
+    pierced_ = &pierced;
+    lift_ = std::min(by, 0.5 * margin_);
+}
+
 void FabricContact::update(State& state)
 {
     const int count = state.size.vertex_count, vs = state.size.vertex_stride;
     query_.nearest(state.pos.data(), vs, count, search_radius(),
                    {vs, state.contact_normal.data(), state.contact_offset.data(), body_of_vertex_.data()});
     for_each_item(count, [this, &state](int v) {
-        if (body_of_vertex_[v] >= 0) state.contact_offset[v] += body_sag_[body_of_vertex_[v]];
+        if (body_of_vertex_[v] < 0) return;
+        state.contact_offset[v] += body_sag_[body_of_vertex_[v]];
+        if (pierced_ && (*pierced_)[v]) state.contact_offset[v] += lift_;
     });
     contact_count_ = int(sum_items(count, [&state, vs, gap = gap_](int v) {
         double along = -state.contact_offset[v];

@@ -27,6 +27,10 @@ public:
     FabricContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology, const Cloth& cloth,
                   const FabricTable& fabrics, double gap, double margin, bool by_faces);
 
+    /// Keeps those particles further off whose triangles a body pierces between them, until it does no more.
+    /// @param pierced  per particle, as ClothContact has it; must outlive this object   @param by  [m]
+    void lift(const std::vector<char>& pierced, double by);
+
     void update(State& state) override;
     bool crossed(const State& state, const std::vector<real>& from) override;
     double search_radius() const override { return gap_ + margin_; }
@@ -46,6 +50,8 @@ private:
     std::vector<double> body_sag_;          ///< Per body: by how much vertices are kept further away [m].
     std::vector<double> fabric_friction_;   ///< Per particle: the largest of its panels'.
     std::vector<int> body_of_vertex_;
+    const std::vector<char>* pierced_ = nullptr;
+    double lift_ = 0;                       ///< [m]
     double gap_, margin_;
     int contact_count_ = 0;
 };

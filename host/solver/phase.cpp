@@ -8,6 +8,8 @@
 namespace selvage {
 namespace {
 
+constexpr double lift_of_edge = 0.5;   // how much further off a body what it pierces is kept, of an edge length
+
 Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
 {
     Topology topology = make_topology(model.cloth, options.joined);
@@ -50,6 +52,7 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
                                                         particle_friction(topology_, model.cloth, model.fabrics));
     if (cloth_contact_ && contact_ && contact_->motion_end() > 0)
         cloth_contact_->set_carry([this](State& state, double time) { contact_->move_to(state, time); });
+    if (cloth_contact_ && contact_) contact_->lift(cloth_contact_->pierced(), lift_of_edge * edge_length_);
     newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), cloth_contact_.get(), profile);
     look_around();
     if (!contact_) return;
