@@ -12,6 +12,7 @@ namespace {
 
 constexpr double keep = 0.1;             // part of a pair's distance that a move leaves, or of the gap if that is less
 constexpr double held_keep = 0.5;        // the same for moves of bodies and held vertices: cloth makes way in between
+constexpr double apart = 1e-3;           // of the gap: what pairs never come to, as their barrier has it
 constexpr double scarce = 1e-6;          // part of the gap: pairs as near as that come nearer by small parts only
 constexpr double held_scarce = 1e-4;     // the same for moves of bodies and held vertices
 constexpr double nearly_all = 0.9;       // such a small part leaves this much
@@ -88,11 +89,15 @@ double ClothContact::gap_of(const PairCandidate& candidate) const
     return candidate.edges || candidate.corner[0] < 0 ? body_gap_ : 0;
 }
 
-// How near a pair may come in one move: many moves one after the other must not lead to where rounding decides.
-double ClothContact::least_distance(const Look& look) const
+// How near a pair may come in one move. No barrier lets it come to a thousandth of its gap, and many moves one after the
+// other must not lead to where rounding decides either.
+double ClothContact::least_distance(const PairCandidate& candidate, const Look& look) const
 {
-    const double distance = std::min<double>(look.distance, gap_);
-    return distance > 2 * nearest_ ? std::max(keep_ * distance, nearest_) : nearly_all * distance;
+    const bool body = std::min(candidate.corner[0], candidate.corner[3]) < 0;
+    const double distance = std::min<double>(look.distance, gap_), never = apart * (body ? body_gap_ : gap_);
+    const double room = distance - never;
+    if (room <= 0) return nearly_all * distance;
+    return never + (room > 2 * nearest_ ? std::max(keep_ * room, nearest_) : nearly_all * room);
 }
 
 // Cloth that is on the wrong side of something has to get out again.
@@ -211,7 +216,7 @@ float ClothContact::free_part(PairCandidate candidate, Look& look, const Way& wa
     if (!measured) look.distance = rounded_down(pair_distance(x, candidate.edges));
     look.approach = std::max(look.approach, rounded_up(approach));
     look.near = look.distance - look.approach < gap_;
-    const double least = least_distance(look);
+    const double least = least_distance(candidate, look);
     if (approach < look.distance - least || may_pass(candidate)) return 1;
     const double free = free_fraction(x, u, candidate.edges, look.distance, approach, least);
     return free < 1 ? rounded_down(free) : 1;
@@ -227,7 +232,7 @@ std::vector<float> ClothContact::free_parts(const Way& way, bool first)
         // What moved along with a vertex that is held back now comes nearer to it.
         const auto& c = candidates[k].corner;
         const bool changed = std::any_of(c.begin(), c.end(), [this](int v) { return held_[slot(v)] != 0; });
-        const bool may_hit = measured && look.approach >= look.distance - least_distance(look);
+        const bool may_hit = measured && look.approach >= look.distance - least_distance(candidates[k], look);
         if (changed || (first && may_hit)) part[k] = free_part(candidates[k], look, way, measured);
     });
     return part;

@@ -111,7 +111,7 @@ private:
     PairCorners moves(const PairCandidate& candidate, const Way& way) const;
     int slot(int corner) const { return corner >= 0 ? corner : int(area_.size()) - 1 - corner; }
     double gap_of(const PairCandidate& candidate) const;
-    double least_distance(const Look& look) const;
+    double least_distance(const PairCandidate& candidate, const Look& look) const;
     bool may_pass(const PairCandidate& candidate) const;
 
     void cover(const State& state, const Way& way);
