@@ -195,12 +195,18 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
             plan.skipped.push_back({std::string(term.name), absence(scene, model, term.name)});
     }
     const bool queries = plan.phases.back().queries_bodies;
-    plan.embree = queries && std::any_of(model.model.bodies.begin(), model.model.bodies.end(),
-                                         [](const Body& body) { return body.kind == Body::Kind::mesh; });
+    const bool queries_meshes = queries && std::any_of(model.model.bodies.begin(), model.model.bodies.end(),
+                                                       [](const Body& body) { return body.kind == Body::Kind::mesh; });
+    plan.embree = queries_meshes || scene.output.picture;
     if (plan.embree)
         plan.active.push_back("embree");
     else
-        plan.skipped.push_back({"embree", queries ? "all bodies have closed forms" : "no body is queried"});
+        plan.skipped.push_back({"embree", queries ? "all bodies have closed forms, and no picture is drawn"
+                                                  : "no body is queried and no picture is drawn"});
+    if (scene.output.picture)
+        plan.active.push_back("picture");
+    else
+        plan.skipped.push_back({"picture", "output.picture is false"});
     const std::string no_coarse_start = why_no_coarse_start(scene, model);
     plan.coarse_start = no_coarse_start.empty();
     if (plan.coarse_start)
