@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "bench/broad_phase.hpp"
 #include "bench/kernels.hpp"
 #include "bench/scaling.hpp"
 #include "bench/skip.hpp"
@@ -20,6 +21,7 @@ struct Suite {
 const std::vector<Suite>& suites()
 {
     static const std::vector<Suite> all = {{"kernels", bench_kernels},
+                                             {"broad-phase", bench_broad_phase},
                                              {"skip", bench_skip},
                                              {"scaling", bench_scaling},
                                              {"work-precision", bench_work_precision},

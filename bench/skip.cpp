@@ -48,11 +48,12 @@ SkipOptions read_skip_options(const std::vector<std::string>& arguments)
     return options;
 }
 
-// The count of intersections that ends every run is no part of a feature.
+// What concludes every run, such as its last frame, is no part of a feature; the picture alone is drawn then.
 bool has_phase(const ChildRun& run, const std::string& name)
 {
     return std::any_of(run.phases.begin(), run.phases.end(), [&](const std::string& path) {
-        return path.substr(path.rfind('/') + 1) == name && path.find("/count_intersections/") == std::string::npos;
+        const bool at_end = path.find("conclude/") != std::string::npos && path.find("/picture/") == std::string::npos;
+        return path.substr(path.rfind('/') + 1) == name && !at_end;
     });
 }
 
@@ -128,7 +129,7 @@ std::string table(const std::vector<SkipResult>& results)
                             r.launches, r.linear_iterations, initialised(r));
     }
     return text + "times: the least of all repeats, of the whole process; of absent: processor time and memory against the run "
-                  "without the feature; initialised: beside the count of intersections at the end of every run\n";
+                  "without the feature\n";
 }
 
 Json json_report(const std::vector<SkipResult>& results)

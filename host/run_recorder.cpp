@@ -229,7 +229,7 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
     s.energy.membrane = in_plane_energy(phase.newton());
     s.energy.bending = bending_energy(phase.newton());
     s.energy.gravity = phase.newton().energy_of("gravity");
-    s.energy.contact = phase.newton().energy_of("body_contact");
+    s.energy.contact = phase.newton().energy_of("body_contact") + phase.newton().energy_of("body_repulsion");
     s.energy.kinetic = phase.newton().kinetic_energy();
     const StretchMeasure stretch = measure_stretch(cloth, positions);
     s.stretch = {stretch.min, stretch.max, stretch.p99};

@@ -99,6 +99,31 @@ void check_solver_of_motion(const Scene& scene)
                          "1, as a body or pin moves");
 }
 
+// A key that the response in use has no place for is a mistake, and so is what a rule on velocities cannot do.
+void check_response(const Scene& scene)
+{
+    const ContactScene& contact = scene.contact;
+    const bool rule = contact.response == "velocity_rule";
+    if (!rule && !std::isnan(contact.restitution))
+        throw InputError(scene.place("contact.restitution"), number_text(contact.restitution),
+                         "none, as contact.response is " + contact.response + " and only velocity_rule bounces");
+    if (!rule) return;
+    if (!std::isnan(contact.stiffness))
+        throw InputError(scene.place("contact.stiffness"), number_text(contact.stiffness) + " Pa",
+                         "none, as contact.response is velocity_rule and presses with no force");
+    if (contact.self && scene.places.count("contact.self"))
+        throw InputError(scene.place("contact.self"), "true",
+                         "false or none, as contact.response is velocity_rule and knows of bodies only");
+    if (scene.bodies.empty() || !contact.body) return;
+    if (scene.solver.until == "equilibrium")
+        throw InputError(scene.place("solver.until"), "\"equilibrium\"",
+                         "simulated seconds, as contact.response is velocity_rule and no force balances the weight");
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+        if (scene.bodies[body].moves())
+            throw InputError(scene.place("body[" + std::to_string(body) + "]"), "a body that moves",
+                             "one that stands still, as contact.response is velocity_rule");
+}
+
 void check_body(const Scene& scene, int index, std::set<std::string>& names)
 {
     const BodyScene& body = scene.bodies[std::size_t(index)];
@@ -175,6 +200,7 @@ void check_scene(const Scene& scene)
     check_until(scene);
     check_pins(scene);
     check_solver_of_motion(scene);
+    check_response(scene);
 }
 
 void resolve_fabrics(Scene& scene)

@@ -124,8 +124,13 @@
     KEY(double, memory_limit, 0, "bytes", 0, 1e15, "refuse scenes that need more; 0: the machine's memory")
 
 #define CONTACT_KEYS(KEY, WORD, VEC3)                                                                            \
-    KEY(double, gap, 0.002, "m", 1e-5, 0.05, "distance from the body at which contact pressure sets in")         \
-    KEY(double, stiffness, automatic, "Pa", 1e-3, 1e9, "pressure scale of the contact barrier; automatic: 100 times the cloth's weight per area, or what brings it to the speed of the fastest body within the gap if that is more") \
+    WORD(response, "barrier", "barrier|velocity_rule|exponential",                                               \
+         "what keeps surfaces apart. Two are for comparison and do not carry the guarantee that nothing crosses: "  \
+         "velocity_rule turns the velocities of vertices on bodies around after each step (no cloth on cloth, no rest to " \
+         "equilibrium); exponential is a bounded force that can be overcome")                                    \
+    KEY(double, restitution, automatic, "1", 0, 1, "normal velocity of a vertex after an impact over that before; only with response = \"velocity_rule\"; automatic: 0") \
+    KEY(double, gap, 0.002, "m", 1e-5, 0.05, "distance from the body at which contact pressure sets in, or a vertex bounces off") \
+    KEY(double, stiffness, automatic, "Pa", 1e-3, 1e9, "pressure scale of the barrier or the exponential law; automatic: 100 times the cloth's weight per area, or what brings it to the speed of the fastest body within the gap if that is more") \
     KEY(bool, body, true, "1", 0, 1, "contact between cloth and bodies")                                         \
     KEY(bool, self, true, "1", 0, 1, "contact of the cloth with itself; without it cloth passes through cloth")
 

@@ -15,6 +15,7 @@
     typedef double real;                               // float positions alone leave force residuals above 5 %
     struct vec3 { real x, y, z; };
     using std::asin;
+    using std::exp;
     using std::fabs;
     using std::log;
     using std::sqrt;

@@ -7,8 +7,10 @@
 #include "terms/bending.h"
 #include "terms/bending_hysteresis.h"
 #include "terms/body_contact.h"
+#include "terms/body_repulsion.h"
 #include "terms/cloth_contact.h"
 #include "terms/cloth_friction.h"
+#include "terms/cloth_repulsion.h"
 #include "terms/curved_membrane.h"
 #include "terms/damping.h"
 #include "terms/friction.h"
@@ -29,6 +31,8 @@
     TERM(seam, stitch, conservative, no_stage)              \
     TERM(damping, vertex, dissipative, no_stage)            \
     TERM(body_contact, vertex, conservative, no_stage)      \
+    TERM(body_repulsion, vertex, conservative, no_stage)    \
     TERM(friction, vertex, conservative, no_stage)          \
     TERM(cloth_contact, pair, conservative, pair_frame)     \
+    TERM(cloth_repulsion, pair, conservative, repulsion_frame) \
     TERM(cloth_friction, pair, conservative, no_stage)

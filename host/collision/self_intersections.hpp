@@ -1,13 +1,13 @@
 #pragma once
-#include <array>
 #include <vector>
 
+#include "host/collision/triangle_tree.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
 
 /// Two triangles that meet, by their indices.
-using IntersectingPair = std::array<int, 2>;
+using IntersectingPair = TrianglePair;
 
 /// Finds every pair of a mesh's triangles that intersect, by exact predicates. Pairs that share a corner count if an
 /// edge of one that does not end there meets the other; pairs that share an edge, and triangles without area, do not.

@@ -20,11 +20,13 @@ void ActiveTerms::evaluate_forces(bool dissipative)
 {
     const TraceScope scope("forces");
     clear_forces(state_);
-    for (const Term* term : conservative_)
+    const auto add = [&](const Term* term) {
         profile_.timed(term->name, term->item_count(state_.size), traffic_.at(term).force,
                        [&] { term->add_force(state_, params_); });
+    };
+    for (const Term* term : conservative_) add(term);
     if (dissipative)
-        for (const Term* term : dissipative_) term->add_force(state_, params_);
+        for (const Term* term : dissipative_) add(term);
     profile_.timed("gather_forces", state_.size.vertex_count, std::int64_t(gather_bytes(state_)), [&] { gather_forces(state_); });
 }
 

@@ -37,6 +37,10 @@ settle_pairs_args settling(State& s, const Params& params)
     a.contact.pair_normal = s.pair_normal.data();
     a.contact.pair_distance = s.pair_distance.data();
     a.contact.stiffness = params.cloth_contact.stiffness;
+    a.repulsion.pair_area = s.pair_area.data();
+    a.repulsion.pair_gap = s.pair_gap.data();
+    a.repulsion.pair_distance = s.pair_distance.data();
+    a.repulsion.stiffness = params.cloth_repulsion.stiffness;
     a.friction.pair_held_weight = a.held_weight = s.pair_held_weight.data();
     a.friction.pair_held_normal = a.held_normal = s.pair_held_normal.data();
     a.friction.pair_bristle = a.bristle = s.pair_bristle.data();

@@ -35,6 +35,8 @@ public:
     virtual NewtonReport step(double dt, const NewtonOptions& options) = 0;
     /// Forgets what earlier steps left: at the start, and when the state has been changed from outside.
     virtual void restart() {}
+    /// Forgets what no longer holds since a rule has moved the state a little after a step.
+    virtual void displaced() { restart(); }
     /// What besides the state a step depends on, for retries and checkpoints; the sizes never change.
     virtual std::vector<std::vector<real>*> history() { return {}; }
     /// Largest error of a vertex that the last step has made, to leading order [m].

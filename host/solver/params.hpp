@@ -1,15 +1,41 @@
 #pragma once
+#include "kernels/rules.h"
 #include "kernels/terms.h"
 
 namespace selvage {
 
-/// Every term's parameters, as `params.<term>.<parameter>`, in SI units. All strengths are zero at first.
+/// The parameters of every term and rule, as `params.<term>.<parameter>`, in SI units. All strengths are zero at first.
 struct Params {
 #define PARAM(name, initial, unit, meaning) real name = real(initial);
 #define TERM(term, per, nature, stage) struct { term##_PARAMS(PARAM, PARAM) } term;
     TERMS(TERM)
 #undef TERM
+#define RULE(rule, per) struct { rule##_PARAMS(PARAM, PARAM) } rule;
+    RULES(RULE)
+#undef RULE
 #undef PARAM
 };
+
+/// True if the cloth meets bodies, under whichever law of contact.
+inline bool meets_bodies(const Params& p)
+{
+    return p.body_contact.stiffness > 0 || p.body_repulsion.stiffness > 0 || p.velocity_rule.gap > 0;
+}
+
+/// True if the cloth meets itself, under whichever law of contact.
+inline bool meets_itself(const Params& p) { return p.cloth_contact.stiffness > 0 || p.cloth_repulsion.stiffness > 0; }
+
+/// Distance from a body at which contact sets in under the law in use [m]; the barrier's if there is none.
+inline double body_gap(const Params& p)
+{
+    if (p.velocity_rule.gap > 0) return p.velocity_rule.gap;
+    return p.body_repulsion.stiffness > 0 ? p.body_repulsion.gap : p.body_contact.gap;
+}
+
+/// Distance at which contact of cloth with cloth sets in under the law in use [m].
+inline double cloth_gap(const Params& p)
+{
+    return p.cloth_repulsion.stiffness > 0 ? p.cloth_repulsion.gap : p.cloth_contact.gap;
+}
 
 }  // namespace selvage

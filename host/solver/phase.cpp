@@ -33,7 +33,7 @@ ParticleTransfers particle_transfers(const ClothModel& model, const Topology& fi
 
 Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
              const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
-    : options_(options), topology_(phase_topology(model, options)),
+    : options_(options), profile_(profile), topology_(phase_topology(model, options)),
       state_(make_state(topology_, model.cloth, model.fabrics, options.params, positions, velocities)),
       pins_(model.cloth, topology_), edge_length_(typical_edge(model.cloth))
 {
@@ -44,16 +44,20 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
                                    : make_linear_solver_double(state_, options.linear, transfers);
     if (query && !state_.contact_normal.empty())
         contact_ = std::make_unique<FabricContact>(*query, model.bodies, topology_, model.cloth, model.fabrics,
-                                                   options.params.body_contact.gap, options.contact_margin,
-                                                   options.params.cloth_contact.stiffness > 0);
-    if (options.params.cloth_contact.stiffness > 0)
+                                                   body_gap(options.params), options.contact_margin,
+                                                   meets_itself(options.params));
+    if (meets_itself(options.params))
         cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, query ? model.bodies : std::vector<Body>{},
-                                                        options.params.cloth_contact.gap,
+                                                        cloth_gap(options.params),
                                                         particle_friction(topology_, model.cloth, model.fabrics));
     if (cloth_contact_ && contact_ && contact_->motion_end() > 0)
         cloth_contact_->set_carry([this](State& state, double time) { contact_->move_to(state, time); });
     if (cloth_contact_ && contact_) contact_->lift(cloth_contact_->pierced(), lift_of_edge * edge_length_);
-    newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, contact_.get(), cloth_contact_.get(), profile);
+    for (const Rule& rule : all_rules())
+        if (rule.is_active(options.params)) rules_.push_back(&rule);
+    // Where a rule stands for contact there is none while a step is solved.
+    ContactField* felt = options.params.velocity_rule.gap > 0 ? nullptr : contact_.get();
+    newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, felt, cloth_contact_.get(), profile);
     look_around();
     if (!contact_) return;
     // Cloth that lies on a body from the start is held by friction in its first step already.
@@ -73,8 +77,20 @@ double Phase::motion_end() const { return std::max(pins_.end(), contact_ ? conta
 
 double Phase::longest_step(double time, double room) const
 {
-    const double pinned = pins_.longest_step(time, room, 0.5 * (options_.params.body_contact.gap + options_.contact_margin));
+    const double pinned = pins_.longest_step(time, room, 0.5 * (body_gap(options_.params) + options_.contact_margin));
     return contact_ ? contact_->longest_step(time, pinned) : pinned;
+}
+
+bool Phase::apply_rules(double dt)
+{
+    if (rules_.empty()) return false;
+    if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
+    for (const Rule* rule : rules_) {
+        const int count = rule->item_count(state_.size);
+        profile_.timed(rule->name, count, std::int64_t(count) * rule->bytes_per_item,
+                       [&] { rule->apply(state_, options_.params, dt); });
+    }
+    return contact_ && contact_->contact_count() > 0;
 }
 
 void Phase::place(double time)

@@ -6,6 +6,7 @@
 #include "host/solver/pin_paths.hpp"
 #include "host/solver/linear_solver.hpp"
 #include "host/solver/newton.hpp"
+#include "host/solver/rules.hpp"
 #include "host/solver/topology.hpp"
 
 namespace selvage {
@@ -58,12 +59,17 @@ public:
     /// Moves bodies and pinned vertices to a time; see FabricContact::move_to.
     void move_to(double time);
 
+    /// Ends a step of dt [s] with the rules that are active. @returns true if one may have changed the state
+    bool apply_rules(double dt);
+
     std::vector<Vec3> positions() const { return cloth_vectors(topology_, state_.size, state_.pos); }
     std::vector<Vec3> velocities() const { return cloth_vectors(topology_, state_.size, state_.vel); }
     std::size_t bytes() const { return state_.bytes() + linear_->bytes(); }
 
 private:
     PhaseOptions options_;
+    Profile& profile_;
+    std::vector<const Rule*> rules_;
     Topology topology_;
     State state_;
     PinPaths pins_;

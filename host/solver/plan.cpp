@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/progressive.hpp"
+#include "host/solver/rules.hpp"
 #include "host/solver/springs.hpp"
 
 namespace selvage {
@@ -65,6 +66,34 @@ bool any_hysteresis(const SceneModel& model)
     return any_fabric(model, &Fabric::hysteresis_weft) || any_fabric(model, &Fabric::hysteresis_warp);
 }
 
+// Exactly one law of contact gets a strength. The cloth slides freely while it is sewn: friction would hold it where the
+// panels first touched the body.
+void set_contact(Params& params, const Scene& scene, const SceneModel& model, bool sewing)
+{
+    const bool bodies = !model.model.bodies.empty() && scene.contact.body;
+    const double friction = bodies && !sewing && any_friction(model) ? 1 : 0;
+    if (scene.contact.response == "velocity_rule") {
+        if (!bodies) return;
+        params.velocity_rule.gap = scene.contact.gap;
+        params.velocity_rule.restitution = std::isnan(scene.contact.restitution) ? 0 : scene.contact.restitution;
+        params.velocity_rule.friction = friction;
+        return;
+    }
+    const auto press = [&](auto& law, double gap) {
+        law.stiffness = contact_stiffness(scene, model);
+        law.gap = gap;
+    };
+    const bool exponential = scene.contact.response == "exponential";
+    if (scene.contact.self) {
+        const double gap = cloth_gap(scene, model);
+        exponential ? press(params.cloth_repulsion, gap) : press(params.cloth_contact, gap);
+        params.cloth_friction.scale = !sewing && any_fabric(model, &Fabric::friction) ? 1 : 0;
+    }
+    if (!bodies) return;
+    exponential ? press(params.body_repulsion, scene.contact.gap) : press(params.body_contact, scene.contact.gap);
+    params.friction.scale = friction;
+}
+
 Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
 {
     Params params;
@@ -96,16 +125,7 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
         params.seam.stiffness = scene.seams.stiffness * model.edge_length;
         params.seam.force_limit = scene.seams.force_limit * model.edge_length;
     }
-    if (scene.contact.self) {
-        params.cloth_contact.stiffness = contact_stiffness(scene, model);
-        params.cloth_contact.gap = cloth_gap(scene, model);
-        params.cloth_friction.scale = !sewing && any_fabric(model, &Fabric::friction) ? 1 : 0;
-    }
-    if (model.model.bodies.empty() || !scene.contact.body) return params;
-    params.body_contact.stiffness = contact_stiffness(scene, model);
-    params.body_contact.gap = scene.contact.gap;
-    // The cloth slides freely while it is sewn: friction would hold it where the panels first touched the body.
-    params.friction.scale = !sewing && any_friction(model) ? 1 : 0;
+    set_contact(params, scene, model, sewing);
     return params;
 }
 
@@ -127,7 +147,7 @@ PhasePlan plan_phase(const Scene& scene, const SceneModel& model, bool sewing)
     phase.name = sewing ? "sew" : "drape";
     phase.params = phase_params(scene, model, sewing);
     phase.joined = !sewing;
-    phase.queries_bodies = phase.params.body_contact.stiffness > 0;
+    phase.queries_bodies = meets_bodies(phase.params);
     Topology topology = make_topology(model.model.cloth, phase.joined);
     add_springs(topology, model.model.cloth, model.model.fabrics, springs_of(phase.params));
     const bool plate = phase.params.plate.scale > 0;
@@ -137,6 +157,10 @@ PhasePlan plan_phase(const Scene& scene, const SceneModel& model, bool sewing)
         if (term.is_active(phase.params))
             phase.launches.push_back({std::string(term.name), std::string(kind_name(term.per)), term.item_count(size),
                                       std::size_t(term.item_count(size)) * std::size_t(term.bytes_per_item)});
+    for (const Rule& rule : all_rules())
+        if (rule.is_active(phase.params))
+            phase.launches.push_back({std::string(rule.name), std::string(kind_name(rule.per)), rule.item_count(size),
+                                      std::size_t(rule.item_count(size)) * std::size_t(rule.bytes_per_item)});
     if (phase.queries_bodies) phase.launches.push_back({"body_query", "vertex", size.vertex_count, 0});
     phase.field_bytes = field_bytes(size, required_fields(phase.params));
     phase.solver_bytes = solver_estimate(scene, size, !model.model.coarser.empty());
@@ -151,9 +175,22 @@ double bodies_end(const std::vector<Body>& bodies)
     return end;
 }
 
+std::string absence_of_contact(const Scene& scene, bool bodies, std::string_view name)
+{
+    const std::string &response = scene.contact.response, in_place = "contact.response is " + response;
+    const bool of_cloth = name.starts_with("cloth_"), rule = response == "velocity_rule";
+    if (of_cloth && !scene.contact.self) return "contact.self is false";
+    if (of_cloth && rule) return in_place + ", which knows of bodies only";
+    if (!of_cloth && !bodies) return "there are no bodies";
+    if (!of_cloth && !scene.contact.body) return "contact.body is false";
+    if (name == "friction" && rule) return in_place + ", which has friction of its own";
+    if (name == "friction") return "no body and no fabric has friction";
+    if (name == "cloth_friction") return "no fabric has friction";
+    return in_place;
+}
+
 std::string absence(const Scene& scene, const SceneModel& model, std::string_view term)
 {
-    const bool bodies = !model.model.bodies.empty();
     if (term == "gravity") return "solver.gravity is zero";
     const bool springs = scene.membrane.model == "springs", bend_springs = scene.bending.model == "springs";
     const bool membrane = scene.membrane.model != "none" && scene.membrane.scale > 0;
@@ -172,11 +209,7 @@ std::string absence(const Scene& scene, const SceneModel& model, std::string_vie
     if (term == "bending_hysteresis") return "bending.model is none, or no fabric has bending hysteresis";
     if (term == "seam") return "there are no seams";
     if (term == "damping") return "no fabric has damping";
-    if (term == "cloth_contact") return "contact.self is false";
-    if (term == "cloth_friction") return scene.contact.self ? "no fabric has friction" : "contact.self is false";
-    if (!bodies) return "there are no bodies";
-    if (!scene.contact.body) return "contact.body is false";
-    return "no body and no fabric has friction";
+    return absence_of_contact(scene, !model.model.bodies.empty(), term);
 }
 
 }  // namespace
@@ -194,13 +227,24 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
         else
             plan.skipped.push_back({std::string(term.name), absence(scene, model, term.name)});
     }
+    for (const Rule& rule : all_rules())
+        if (rule.is_active(plan.phases.back().params))
+            plan.active.push_back(std::string(rule.name));
+        else
+            plan.skipped.push_back({std::string(rule.name), absence_of_contact(scene, !model.model.bodies.empty(), rule.name)});
     const bool queries = plan.phases.back().queries_bodies;
-    plan.embree = queries && std::any_of(model.model.bodies.begin(), model.model.bodies.end(),
-                                         [](const Body& body) { return body.kind == Body::Kind::mesh; });
+    const bool queries_meshes = queries && std::any_of(model.model.bodies.begin(), model.model.bodies.end(),
+                                                       [](const Body& body) { return body.kind == Body::Kind::mesh; });
+    plan.embree = queries_meshes || scene.output.picture;
     if (plan.embree)
         plan.active.push_back("embree");
     else
-        plan.skipped.push_back({"embree", queries ? "all bodies have closed forms" : "no body is queried"});
+        plan.skipped.push_back({"embree", queries ? "all bodies have closed forms, and no picture is drawn"
+                                                  : "no body is queried and no picture is drawn"});
+    if (scene.output.picture)
+        plan.active.push_back("picture");
+    else
+        plan.skipped.push_back({"picture", "output.picture is false"});
     const std::string no_coarse_start = why_no_coarse_start(scene, model);
     plan.coarse_start = no_coarse_start.empty();
     if (plan.coarse_start)

@@ -33,7 +33,7 @@ struct RunPlan {
     std::vector<PhasePlan> phases;
     std::vector<std::string> active;        ///< Terms and devices in use in any phase.
     std::vector<SkippedFeature> skipped;
-    bool embree = false;                    ///< A ray tracing device is made.
+    bool embree = false;                    ///< A ray tracing device is made, for bodies of meshes or the picture.
     bool coarse_start = false;              ///< Coarser cloths are draped first.
     std::size_t peak_bytes = 0;             ///< Of the phase that needs most, with meshes and queries.
 };

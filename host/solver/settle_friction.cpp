@@ -16,6 +16,13 @@ void settle_friction(State& state, const Params& params)
     args.contact.contact_area = state.contact_area.data();
     args.contact.stiffness = params.body_contact.stiffness;
     args.contact.gap = params.body_contact.gap;
+    args.repulsion.size = state.size;
+    args.repulsion.pos = state.pos.data();
+    args.repulsion.contact_normal = state.contact_normal.data();
+    args.repulsion.contact_offset = state.contact_offset.data();
+    args.repulsion.contact_area = state.contact_area.data();
+    args.repulsion.stiffness = params.body_repulsion.stiffness;
+    args.repulsion.gap = params.body_repulsion.gap;
     args.friction = state.contact_friction.data();
     args.anchor = state.friction_anchor.data();
     args.limit = state.friction_limit.data();

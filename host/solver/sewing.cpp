@@ -90,6 +90,7 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
     phase.params().plate.scale *= press_bending;
     phase.params().spring.bend_scale *= press_bending;
     phase.params().friction.scale = 0;
+    phase.params().velocity_rule.friction = 0;
     phase.params().bending_hysteresis.scale = 0;
     phase.params().gravity = {};
     const std::unique_ptr<Integrator> euler = make_integrator("implicit_euler", phase);

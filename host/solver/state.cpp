@@ -12,6 +12,21 @@ const FieldInfo& field_info(Field field)
     return infos[std::size_t(field)];
 }
 
+FieldSet field_set(std::initializer_list<Field> fields)
+{
+    FieldSet set;
+    for (Field field : fields) set.set(std::size_t(field));
+    return set;
+}
+
+int bytes_per_item(const FieldSet& fields, std::string_view kind)
+{
+    int bytes = 0;
+    for (std::size_t f = 0; f < fields.size(); ++f)
+        if (fields[f] && field_info(Field(f)).per == kind) bytes += field_info(Field(f)).bytes_per_item;
+    return bytes;
+}
+
 State::State(const mesh_sizes& sizes, const FieldSet& wanted_fields) : size(sizes), wanted(wanted_fields)
 {
 #define FIELD(type, name, per, components, unit, meaning) \

@@ -1,6 +1,7 @@
 #pragma once
 #include <bitset>
 #include <cstddef>
+#include <initializer_list>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct FieldInfo {
 
 /// Returns the description of a field from its line in kernels/fields.def.
 const FieldInfo& field_info(Field field);
+
+/// Returns the set of some fields.
+FieldSet field_set(std::initializer_list<Field> fields);
+
+/// Returns the bytes that those of some fields which belong to a kind of items have per item.
+int bytes_per_item(const FieldSet& fields, std::string_view kind);
 
 /// Items between two component planes: at least 48 away from every multiple of 128, so that
 /// the planes of one field do not compete for the same cache sets (3 times faster at 16 k vertices).

@@ -77,6 +77,7 @@ bool StepControl::attempt(double dt, const NewtonOptions& options, bool accurate
 {
     report_ = integrator_.step(dt, options);
     if (!std::isfinite(report_.residual) || !is_finite(phase_.state())) return false;
+    if (phase_.apply_rules(dt)) integrator_.displaced();
     if (!cloth_is_clear()) return false;
     if (report_.stuck && report_.iterations == 0 && report_.residual > 10 * options.tolerance) return false;
     return !accurate || report_.converged || report_.nearly;

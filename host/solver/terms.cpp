@@ -1,21 +1,14 @@
 #include "host/solver/terms.hpp"
 
-#include <algorithm>
-#include <initializer_list>
+#include <type_traits>
 
 #include "host/solver/launch.hpp"
 #include "host/solver/pair_list.hpp"
+#include "host/solver/rules.hpp"
 #include "kernels/stages/gather.h"
 
 namespace selvage {
 namespace {
-
-FieldSet set_of(std::initializer_list<Field> fields)
-{
-    FieldSet set;
-    for (Field field : fields) set.set(std::size_t(field));
-    return set;
-}
 
 constexpr std::nullptr_t no_stage = nullptr;
 
@@ -31,7 +24,7 @@ constexpr std::nullptr_t no_stage = nullptr;
         static constexpr std::string_view name = #term;                                                     \
         static constexpr ItemKind per = ItemKind::kind;                                                     \
         static constexpr Nature nature = Nature::nature_of_term;                                            \
-        static FieldSet fields() { return set_of({term##_FIELDS(LIST_FIELD, LIST_FIELD)}); }                \
+        static FieldSet fields() { return field_set({term##_FIELDS(LIST_FIELD, LIST_FIELD)}); }                \
         static constexpr auto stage = stage_before;                                                         \
         static constexpr auto force = term##_force;                                                         \
         static constexpr auto stiffness = term##_stiffness;                                                 \
@@ -58,14 +51,6 @@ typename Traits::Args bound(State& state, const Params& params, bool projected =
     return args;
 }
 
-int bytes_of_own_kind(const FieldSet& fields, std::string_view kind)
-{
-    int bytes = 0;
-    for (std::size_t f = 0; f < fields.size(); ++f)
-        if (fields[f] && field_info(Field(f)).per == kind) bytes += field_info(Field(f)).bytes_per_item;
-    return bytes;
-}
-
 template <class Traits>
 void run_stage(State& state, const Params& params)
 {
@@ -81,7 +66,7 @@ Term describe()
             .per = Traits::per,
             .nature = Traits::nature,
             .fields = fields,
-            .bytes_per_item = bytes_of_own_kind(fields, kind_name(Traits::per)),
+            .bytes_per_item = bytes_per_item(fields, kind_name(Traits::per)),
             .is_active = [](const Params& params) { return Traits::any_strength(Traits::values(params)); },
             .item_count = Traits::count,
             .add_force =
@@ -125,9 +110,11 @@ std::string_view kind_name(ItemKind kind)
 
 FieldSet required_fields(const Params& params)
 {
-    FieldSet fields = set_of({Field::pos, Field::vel, Field::mass, Field::inv_mass, Field::force});
+    FieldSet fields = field_set({Field::pos, Field::vel, Field::mass, Field::inv_mass, Field::force});
     for (const Term& term : all_terms())
         if (term.is_active(params)) fields |= term.fields;
+    for (const Rule& rule : all_rules())
+        if (rule.is_active(params)) fields |= rule.fields;
     GATHERED_KINDS(GATHER_FIELDS)
     return fields;
 }

@@ -28,7 +28,7 @@ struct Term {
 std::span<const Term> all_terms();
 
 /// Returns the fields a scene with these parameters needs: positions, masses, and the union over its active
-/// terms with their gather lists. A term whose strengths are all zero adds no field here and no launch to a step.
+/// terms and rules with their gather lists. A term whose strengths are all zero adds no field here and no launch to a step.
 FieldSet required_fields(const Params& params);
 
 /// Returns the name of an item kind.

@@ -4,9 +4,11 @@
 // Source: see terms/friction.h.
 #pragma once
 #include "../terms/body_contact.h"
+#include "../terms/body_repulsion.h"
 
 typedef struct {
     body_contact_args contact;
+    body_repulsion_args repulsion;                  // where contact has no stiffness
     GLOBAL const real* RESTRICT friction;
     GLOBAL real* RESTRICT anchor;
     GLOBAL real* RESTRICT limit;
@@ -17,7 +19,9 @@ KERNEL_FN void settle_friction_vertex(int vertex, const settle_friction_args* a)
 {
     int vs = a->contact.size.vertex_stride;
     vec3 n = load3(a->contact.contact_normal, vs, vertex), x = load3(a->contact.pos, vs, vertex);
-    real limit = a->friction[vertex] * body_contact_pressure_force(vertex, &a->contact);
+    real push = a->contact.stiffness > REAL(0) ? body_contact_pressure_force(vertex, &a->contact)
+                                               : body_repulsion_push(vertex, &a->repulsion);
+    real limit = a->friction[vertex] * push;
     vec3 d = x - load3(a->anchor, vs, vertex);
     vec3 w = d - dot(n, d) * n;
     real q = length(w);

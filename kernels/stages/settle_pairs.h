@@ -5,9 +5,11 @@
 #pragma once
 #include "../terms/cloth_contact.h"
 #include "../terms/cloth_friction.h"
+#include "../terms/cloth_repulsion.h"
 
 typedef struct {
     cloth_contact_args contact;                     // its frames are those of the present positions
+    cloth_repulsion_args repulsion;                 // where contact has no stiffness
     cloth_friction_args friction;
     GLOBAL real* RESTRICT held_weight;
     GLOBAL real* RESTRICT held_normal;
@@ -19,7 +21,9 @@ KERNEL_FN void settle_pair(int pair, const settle_pairs_args* a)
 {
     int ps = a->contact.size.pair_stride;
     vec3 n = load3(a->contact.pair_normal, ps, pair), w = pair_way(pair, &a->friction);
-    real limit = a->friction.pair_friction[pair] * cloth_contact_push(pair, &a->contact);
+    real push = a->contact.stiffness > REAL(0) ? cloth_contact_push(pair, &a->contact)
+                                               : cloth_repulsion_push(pair, &a->repulsion);
+    real limit = a->friction.pair_friction[pair] * push;
     real part = smaller(REAL(1), a->friction.stick_distance / larger(length(w), REAL(1e-30)));
     if (a->limit[pair] <= REAL(0) || limit <= REAL(0)) part = REAL(0);
     store3(a->bristle, ps, pair, part * (w - dot(n, w) * n));

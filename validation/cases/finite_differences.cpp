@@ -1,35 +1,38 @@
 #include "validation/cases/finite_differences.hpp"
 
 #include "host/solver/launch.hpp"
-#include "kernels/terms/cloth_contact.h"
+#include "kernels/terms/cloth_repulsion.h"
 #include "validation/cases/stiffness.hpp"
 
 namespace selvage {
 namespace {
 
 // The force of contact at state.pos with weights and normals as they stand in the state.
-std::vector<real> contact_force_in_kept_frames(State& state, const Params& params)
+template <auto Force, class Args>
+std::vector<real> force_in_kept_frames(State& state, double stiffness)
 {
-    cloth_contact_args a{};
+    Args a{};
     a.size = state.size;
-    a.pos = state.pos.data();
-    a.body_point = state.body_point.data();
-    a.pair_vertex = state.pair_vertex.data();
     a.pair_area = state.pair_area.data();
     a.pair_gap = state.pair_gap.data();
     a.pair_weight = state.pair_weight.data();
     a.pair_normal = state.pair_normal.data();
     a.pair_distance = state.pair_distance.data();
     a.pair_force = state.pair_force.data();
-    a.stiffness = params.cloth_contact.stiffness;
+    a.stiffness = stiffness;
+    cloth_contact_args places{};
+    places.size = state.size;
+    places.pos = state.pos.data();
+    places.body_point = state.body_point.data();
+    places.pair_vertex = state.pair_vertex.data();
     const int ps = state.size.pair_stride;
     for (int p = 0; p < state.size.pair_count; ++p) {
         vec3 r = make_vec3(0, 0, 0);
-        for (int i = 0; i < 4; ++i) r = r + a.pair_weight[i * ps + p] * pair_corner(i, p, &a);
+        for (int i = 0; i < 4; ++i) r = r + a.pair_weight[i * ps + p] * pair_corner(i, p, &places);
         a.pair_distance[p] = dot(load3(a.pair_normal, ps, p), r);
     }
     clear_forces(state);
-    launch<cloth_contact_force>(state.size.pair_count, a);
+    launch<Force>(state.size.pair_count, a);
     gather_forces(state);
     return state.force;
 }
@@ -79,10 +82,14 @@ Eigen::MatrixXd differenced_stiffness(const Term& term, State& state, const Para
     const real h = 1e-8;
     const std::vector<int> dofs = active_dofs(state);
     Eigen::MatrixXd stiffness(dofs.size(), dofs.size());
-    const bool keeps_frames = term.name == "cloth_contact";
-    if (keeps_frames) term_force(term, state, params);   // finds the frames
+    const bool contact = term.name == "cloth_contact", repulsion = term.name == "cloth_repulsion";
+    if (contact || repulsion) term_force(term, state, params);   // finds the frames
     const auto force = [&] {
-        return keeps_frames ? contact_force_in_kept_frames(state, params) : term_force(term, state, params);
+        if (contact)
+            return force_in_kept_frames<cloth_contact_force, cloth_contact_args>(state, params.cloth_contact.stiffness);
+        if (repulsion)
+            return force_in_kept_frames<cloth_repulsion_force, cloth_repulsion_args>(state, params.cloth_repulsion.stiffness);
+        return term_force(term, state, params);
     };
     for (int j = 0; j < int(dofs.size()); ++j) {
         real& x = term_argument(term, state)[dofs[j]];

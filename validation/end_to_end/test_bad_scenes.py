@@ -258,9 +258,22 @@ class BadCommandLines(BadInput):
             ("builtin:sphere", "solver.until=-1", r"solver\.until", "-1"),
             ("builtin:sphere", "solver.precision=half", r"solver\.precision", "half", "float"),
             ("builtin:sphere", "contact.gap=2", r"contact\.gap", "found 2"),
+            ("builtin:sphere", "contact.response=exponental", r"contact\.response", "did you mean `?\"?exponential"),
+            ("builtin:sphere", "contact.restitution=0.5", r"contact\.restitution", "found 0.5", "barrier"),
         ]:
             with self.subTest(override):
                 self.assert_refused(self.drape(scene, "--set", override), *words)
+
+    def test_what_the_velocity_rule_has_no_place_for_is_refused(self):
+        for scene, override, *words in [
+            ("builtin:sphere", "contact.restitution=1.5", r"contact\.restitution", "found 1.5"),
+            ("builtin:sphere", "contact.stiffness=200", r"contact\.stiffness", "velocity_rule"),
+            ("builtin:sphere", "contact.self=true", r"contact\.self", "velocity_rule"),
+            ("builtin:sphere", "solver.until=equilibrium", r"solver\.until", "velocity_rule"),
+            ("builtin:stress_squeeze", "solver.until=1", r"body\[0\]", "velocity_rule"),
+        ]:
+            with self.subTest(override):
+                self.assert_refused(self.drape(scene, "--set", "contact.response=velocity_rule", "--set", override), *words)
 
     def test_bad_usage_ends_with_2(self):
         for arguments, word in [

@@ -144,6 +144,25 @@ class Contact(unittest.TestCase):
         result = subprocess.run([PROGRAM, "plan", "builtin:sphere", "--json"], capture_output=True, text=True, timeout=60)
         self.assertNotIn("cloth_contact", [feature["name"] for feature in json.loads(result.stdout)["skipped"]])
 
+    def test_the_response_in_use_is_the_only_one_that_runs_and_repeats(self):
+        of_response = {"barrier": "body_contact", "exponential": "body_repulsion", "velocity_rule": "velocity_rule"}
+        for response, own in of_response.items():
+            with self.subTest(response):
+                scene = ["builtin:sphere", "--set", "sheet.resolution=13", "--set", "solver.until=0.3",
+                         "--set", "contact.response=" + response]
+                first, _ = self.drape(response, scene, 2)
+                again, _ = self.drape(response + "_again", scene, 2)
+                np.testing.assert_array_equal(first, again)
+                result = summary(self.path(response))
+                skipped = [feature["name"] for feature in result["skipped"]]
+                kernels = [kernel["name"] for kernel in result["kernels"]]
+                for name in of_response.values():
+                    self.assertEqual(name in result["active"], name == own, name)
+                    self.assertEqual(name in skipped, name != own, name)
+                    self.assertEqual(name in kernels, name == own, name)
+                self.assertLess(first[-1][:, 2].min(), first[0][:, 2].min() - 0.1, "it did not fall")
+                self.assertGreater(np.linalg.norm(first[-1], axis=1).min(), 0.25, "the sphere did not hold it")
+
     def test_layers_go_on_after_a_kill_as_if_nothing_had_happened(self):
         """With friction between layers: what it remembers is in the checkpoint."""
         expected, _ = self.drape("reference", self.layers)

@@ -12,6 +12,12 @@ using namespace selvage;
 
 namespace {
 
+RunPlan plan_of(const std::string& source, const std::vector<std::string>& overrides)
+{
+    const Scene scene = read_scene(source, overrides);
+    return make_plan(scene, build_scene_model(scene));
+}
+
 ClothModel grid_model(int side)
 {
     ClothModel model;
@@ -195,10 +201,10 @@ TEST_CASE("a hanging sheet comes to rest with its forces balanced and its pins w
 
 TEST_CASE("a plan launches and allocates only what the scene has")
 {
-    const std::vector<std::string> overrides{"sheet.resolution=9"};
-    const Scene scene = read_scene("builtin:hanging", overrides);
-    const SceneModel model = build_scene_model(scene);
-    const RunPlan plan = make_plan(scene, model);
+    std::vector<std::string> overrides{"sheet.resolution=9"};
+    CHECK(plan_of("builtin:hanging", overrides).embree);   // for the picture
+    overrides.push_back("output.picture=false");
+    const RunPlan plan = plan_of("builtin:hanging", overrides);
     CHECK(plan.phases.size() == 1);
     CHECK_FALSE(plan.embree);
     CHECK_FALSE(plan.phases[0].queries_bodies);

@@ -1,7 +1,8 @@
 // Second-order backward differences with steps of any lengths, w = dt / (length of the step before):
 //     (1 + 2w)/(1 + w) x1 - (1 + w) x0 + w^2/(1 + w) x(-1) = dt v1,   the same for v1 and a1
 // The first step is one of the implicit midpoint rule: with implicit Euler's, fast modes show its first order for long.
-// It ends beyond what was solved for, where cloth could have met itself: with such contact it is one of implicit Euler.
+// It ends beyond what was solved for, where cloth could have met itself: with such contact it is one of implicit Euler. So
+// it is after a rule has moved the state, since that happens step after step and the midpoint rule damps nothing.
 // Source: Gear 1971; Hairer, Norsett and Wanner 1993, ch. III.5 for variable steps.
 #include "host/solver/integrators/list.hpp"
 #include "host/solver/integrators/vector_tools.hpp"
@@ -9,6 +10,8 @@
 
 namespace selvage {
 namespace {
+
+constexpr double after_rule = -1;   // in place of the length of the step before
 
 class Bdf2 final : public Integrator {
 public:
@@ -19,6 +22,7 @@ public:
     }
     const IntegratorInfo& info() const override { return info_; }
     void restart() override { last_dt_[0] = 0; }
+    void displaced() override { last_dt_[0] = after_rule; }
     std::vector<std::vector<real>*> history() override { return {&last_way_, &last_gain_, &last_dt_}; }
     double error_estimate() const override { return error_; }
 
@@ -26,9 +30,9 @@ public:
     {
         State& s = phase_.state();
         const int n = int(s.pos.size());
-        const bool first = last_dt_[0] == 0;
+        const bool first = last_dt_[0] <= 0;
         // Ways and gains instead of old positions and velocities: pinned vertices then stay to the last bit.
-        const bool midpoint = first && !phase_.cloth_contact();
+        const bool midpoint = last_dt_[0] == 0 && !phase_.cloth_contact();
         const double w = first ? 0 : dt / last_dt_[0], c = w * w / (1 + 2 * w);
         const double h = midpoint ? 0.5 * dt : (1 + w) / (1 + 2 * w) * dt;
         const double parabola = first ? 0 : w * w;

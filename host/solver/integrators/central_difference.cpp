@@ -20,11 +20,7 @@ public:
     {
         for (std::vector<real>* v : {&way_, &a_}) v->assign(phase.state().pos.size(), 0);
     }
-    void restart() override
-    {
-        ExplicitScheme::restart();
-        last_dt_[0] = 0;
-    }
+    void displaced() override { last_dt_[0] = 0; }
     std::vector<std::vector<real>*> history() override
     {
         auto all = ExplicitScheme::history();

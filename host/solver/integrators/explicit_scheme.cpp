@@ -21,7 +21,11 @@ NewtonReport ExplicitScheme::step(double dt, const NewtonOptions&)
     return report;
 }
 
-void ExplicitScheme::restart() { watch_.assign(4, 0); }
+void ExplicitScheme::restart()
+{
+    watch_.assign(4, 0);
+    displaced();
+}
 
 double ExplicitScheme::stable_step()
 {

@@ -11,7 +11,8 @@ public:
     ExplicitScheme(Phase& phase, const IntegratorInfo& info) : phase_(phase), info_(info) {}
     const IntegratorInfo& info() const final { return info_; }
     NewtonReport step(double dt, const NewtonOptions& options) final;
-    void restart() override;
+    void restart() final;
+    void displaced() override {}
     std::vector<std::vector<real>*> history() override { return {&watch_}; }
     /// Estimated anew after some steps, and when many vertices have come into contact or left it.
     double stable_step() final;

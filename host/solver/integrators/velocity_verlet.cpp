@@ -14,11 +14,7 @@ public:
         : ExplicitScheme(phase, info), a_(phase.state().pos.size(), 0), next_(a_)
     {
     }
-    void restart() override
-    {
-        ExplicitScheme::restart();
-        known_[0] = 0;
-    }
+    void displaced() override { known_[0] = 0; }
     std::vector<std::vector<real>*> history() override
     {
         auto all = ExplicitScheme::history();
