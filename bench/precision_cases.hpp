@@ -13,6 +13,7 @@ struct PrecisionScene {
     std::vector<std::string> overrides;
     bool at_rest = false;            ///< Only the shape at rest counts.
     double reference_step = 0;       ///< Of a motion's reference [s]; 0: an eighth of the limit at the start.
+    int most_steps = 0;              ///< Into which implicit schemes divide a motion; 0: 64 if quick, else 256.
 };
 
 /// One run: a point of the diagram.

@@ -72,11 +72,12 @@ Survey run_survey(bool quick)
 
 std::string csv_text(const std::vector<StabilityResult>& cells)
 {
-    std::string text = "integrator,step_s,stiffness,resolution,damping_per_s,start,verdict,energy_ratio,cpu_s\n";
+    std::string text = "integrator,step_s,stiffness,resolution,damping_per_s,self_contact,start,verdict,energy_ratio,tangled,"
+                       "crossed,cpu_s\n";
     for (const StabilityResult& r : cells)
-        text += fmt::format("{},{:g},{:g},{},{:g},{},{},{:.6g},{:.4g}\n", r.cell.integrator, r.cell.step,
-                            r.cell.stiffness, r.cell.resolution, r.cell.damping, name_of(r.cell.start),
-                            name_of(r.verdict), r.energy_ratio, r.seconds);
+        text += fmt::format("{},{:g},{:g},{},{:g},{},{},{},{:.6g},{},{},{:.4g}\n", r.cell.integrator, r.cell.step,
+                            r.cell.stiffness, r.cell.resolution, r.cell.damping, int(r.cell.self_contact),
+                            name_of(r.cell.start), name_of(r.verdict), r.energy_ratio, r.tangled, r.crossed, r.seconds);
     return text;
 }
 
@@ -86,8 +87,9 @@ Json json_report(const Survey& survey)
     report["context"] = bench_context(tbb::this_task_arena::max_concurrency());
     for (const StabilityResult& r : survey.cells) {
         Json run;
-        run["name"] = fmt::format("{}/step:{:g}/stiffness:{:g}/resolution:{}/damping:{:g}/{}", r.cell.integrator,
-                                  r.cell.step, r.cell.stiffness, r.cell.resolution, r.cell.damping, name_of(r.cell.start));
+        run["name"] = fmt::format("{}/step:{:g}/stiffness:{:g}/resolution:{}/damping:{:g}/{}{}", r.cell.integrator,
+                                  r.cell.step, r.cell.stiffness, r.cell.resolution, r.cell.damping, name_of(r.cell.start),
+                                  r.cell.self_contact ? "/self" : "");
         run["run_name"] = run["name"];
         run["run_type"] = "iteration";
         run["iterations"] = 1;
@@ -95,6 +97,10 @@ Json json_report(const Survey& survey)
         run["time_unit"] = "s";
         run["verdict"] = name_of(r.verdict);
         run["energy_ratio"] = std::isfinite(r.energy_ratio) ? Json(r.energy_ratio) : Json();
+        if (r.cell.self_contact) {
+            run["tangled"] = r.tangled;
+            run["crossed"] = r.crossed;
+        }
         if (!r.message.empty()) run["message"] = r.message;
         report["benchmarks"].push_back(std::move(run));
     }
@@ -120,14 +126,15 @@ std::string step_label(double step)
     return fmt::format("{:.0f}e{}", step / std::pow(10.0, power), power);
 }
 
-CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integrator, int resolution)
+CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integrator, int resolution, bool self_contact)
 {
     CellMap map;
-    map.title = fmt::format("{}, {} a side", integrator, resolution);
+    map.title = fmt::format("{}, {} a side{}", integrator, resolution, self_contact ? ", self-contact" : "");
     map.column_label = "step [s]";
     map.row_label = "stiffness, start, d: damped";
     for (const StabilityResult& r : cells) {
-        if (r.cell.integrator != integrator || r.cell.resolution != resolution) continue;
+        const bool here = r.cell.integrator == integrator && r.cell.resolution == resolution;
+        if (!here || r.cell.self_contact != self_contact) continue;
         const std::string column = step_label(r.cell.step), row = row_of(r.cell);
         if (std::find(map.columns.begin(), map.columns.end(), column) == map.columns.end()) map.columns.push_back(column);
         if (map.rows.empty() || map.rows.back() != row) map.rows.push_back(row);
@@ -139,14 +146,15 @@ CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integ
 Image picture(const Survey& survey)
 {
     std::vector<Image> maps;
-    for (int resolution : {16, 32, 64, 128})
+    const std::pair<int, bool> rows[] = {{16, false}, {32, false}, {64, false}, {128, false}, {16, true}};
+    for (const auto& [resolution, self_contact] : rows)
         for (const IntegratorInfo& info : integrators()) {
-            const CellMap map = map_of(survey.cells, info.name, resolution);
+            const CellMap map = map_of(survey.cells, info.name, resolution, self_contact);
             if (!map.kind.empty()) maps.push_back(draw_cell_map(map, kinds(), 480, 460));
         }
     const int across = int(std::count_if(integrators().begin(), integrators().end(),
                                          [](const IntegratorInfo& info) { return info.order > 0; }));
-    return stack(tile(maps, across), draw_cell_legend(kinds(), 1000));
+    return stack(tile(maps, across), draw_cell_legend(kinds(), 2400));
 }
 
 std::string table(const Survey& survey)

@@ -6,6 +6,7 @@
 
 #include "bench/scatter.hpp"
 #include "bench/scene_runner.hpp"
+#include "host/collision/self_intersections.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -15,12 +16,17 @@ constexpr double patience = 20, hang = 60;   // for a cell, and for one step [s]
 constexpr double hurled_speed = 20;        // [m/s]
 constexpr double energy_slack = 1.5;       // symplectic schemes wave by a fifth near their limit; bursts have no bound
 
-// Contact of cloth with itself has no part in this: explicit schemes cannot clear their ways.
-std::vector<std::string> overrides_of(double stiffness, int resolution, double damping, bool body)
+std::vector<std::string> overrides_of(const StabilityCell& cell, bool body)
 {
-    return {fmt::format("sheet.resolution={}", resolution), "sheet.fabric=cotton",
-            fmt::format("fabric.cotton.damping={}", damping), fmt::format("membrane.scale={}", stiffness),
-            fmt::format("bending.scale={}", stiffness), fmt::format("contact.body={}", body), "contact.self=false"};
+    return {fmt::format("sheet.resolution={}", cell.resolution), "sheet.fabric=cotton",
+            fmt::format("fabric.cotton.damping={}", cell.damping), fmt::format("membrane.scale={}", cell.stiffness),
+            fmt::format("bending.scale={}", cell.stiffness), fmt::format("contact.body={}", body),
+            fmt::format("contact.self={}", cell.self_contact)};
+}
+
+int crossings(const SceneRunner& runner, const Phase& phase, const StabilityCell& cell)
+{
+    return cell.self_contact ? int(self_intersections(phase.positions(), runner.model().model.cloth.faces).size()) : 0;
 }
 
 void begin(ViolentStart kind, double spacing, State& state)
@@ -120,12 +126,14 @@ std::vector<StabilityCell> stability_cells(bool quick)
     struct Grid {
         int resolution;
         std::vector<double> steps, stiffness, damping;
+        bool self_contact = false;
     };
     const std::vector<double> fine = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
     std::vector<Grid> grids = {{16, fine, {0.01, 0.1, 1, 10, 100}, {0, 5}},
                                {32, {1e-5, 1e-4, 1e-3, 1e-2, 1e-1}, {0.01, 1, 100}, {0, 5}},
                                {64, {1e-5, 1e-3, 1e-1}, {0.01, 1, 100}, {0}},
-                               {128, {1e-4, 1e-2}, {1}, {0}}};
+                               {128, {1e-4, 1e-2}, {1}, {0}},
+                               {16, {1e-4, 1e-3, 1e-2, 1e-1}, {0.01, 1, 100}, {0}, true}};
     if (quick) grids.resize(1);
     std::vector<StabilityCell> cells;
     for (const Grid& grid : grids)
@@ -135,7 +143,8 @@ std::vector<StabilityCell> stability_cells(bool quick)
                 for (double damping : grid.damping)
                     for (ViolentStart start : {ViolentStart::crumpled, ViolentStart::stretched, ViolentStart::hurled})
                         for (double step : grid.steps)
-                            cells.push_back({std::string(info.name), step, stiffness, grid.resolution, damping, start});
+                            cells.push_back({std::string(info.name), step, stiffness, grid.resolution, damping, start,
+                                             grid.self_contact});
         }
     return cells;
 }
@@ -144,10 +153,11 @@ StabilityResult run_cell(const StabilityCell& cell)
 {
     StabilityResult result;
     result.cell = cell;
-    SceneRunner runner("builtin:sphere", overrides_of(cell.stiffness, cell.resolution, cell.damping, true));
+    SceneRunner runner("builtin:sphere", overrides_of(cell, true));
     Phase phase = runner.make_phase(true);
     begin(cell.start, runner.model().edge_length, phase.state());
-    if (phase.contact()) phase.contact()->update(phase.state());
+    phase.look_around();
+    result.tangled = crossings(runner, phase, cell);
     const double speed = cell.start == ViolentStart::hurled ? hurled_speed : 0;
     const double reserve = gravity_reserve(phase.state(), phase.params(), step_count(cell) * cell.step, speed);
     const double before = total_energy(phase) + reserve;
@@ -164,13 +174,17 @@ StabilityResult run_cell(const StabilityCell& cell)
     }
     result.energy_ratio = (total_energy(phase) + reserve) / before;
     // Even a run that gives up must leave a state that is worth keeping.
-    if (!is_finite(phase.state()) || !(result.energy_ratio <= energy_slack)) result.verdict = StabilityVerdict::garbage;
+    const bool sound = is_finite(phase.state()) && result.energy_ratio <= energy_slack;
+    if (sound) result.crossed = crossings(runner, phase, cell);
+    // Cloth that is tangled from the start may take its time.
+    if (!sound || (result.tangled == 0 && result.crossed > 0)) result.verdict = StabilityVerdict::garbage;
     return result;
 }
 
 LimitResult measure_limit(const std::string& integrator, double stiffness, int resolution)
 {
-    std::vector<std::string> overrides = overrides_of(stiffness, resolution, 0, false);
+    std::vector<std::string> overrides =
+        overrides_of({integrator, 0, stiffness, resolution, 0, ViolentStart::stretched}, false);
     overrides.push_back("solver.gravity=[0,0,0]");
     SceneRunner runner("builtin:sphere", overrides);
     LimitResult result{integrator, stiffness, resolution, 0, 0};

@@ -15,6 +15,7 @@ struct StabilityCell {
     int resolution = 16;         ///< Vertices per side.
     double damping = 0;          ///< [1/s]
     ViolentStart start = ViolentStart::crumpled;
+    bool self_contact = false;   ///< Contact of the cloth with itself.
 };
 
 /// What became of it.
@@ -25,7 +26,7 @@ enum class StabilityVerdict {
     gave_up,     ///< Stopped with a message, the last good state kept.
     slow,        ///< Stopped by its limit of 20 s, its steps being good.
     hung,        ///< A single step took longer than a minute.
-    garbage      ///< Not finite, or with half more energy than it started with or gravity gave.
+    garbage      ///< Not finite, with half more energy than it started with or gravity gave, or passed through itself.
 };
 constexpr int verdict_count = 7;
 
@@ -34,6 +35,8 @@ struct StabilityResult {
     StabilityVerdict verdict = StabilityVerdict::stable;
     double energy_ratio = 0;     ///< Energy at the end over what was there to begin with [1].
     double seconds = 0;          ///< That the steps took, by thread_seconds() [s].
+    int tangled = 0;             ///< Pairs of triangles that intersect at the start, by exact predicates.
+    int crossed = 0;             ///< Those at the end; neither is counted without self_contact.
     std::string message;
 };
 
@@ -48,7 +51,8 @@ struct LimitResult {
 const char* name_of(ViolentStart start);
 const char* name_of(StabilityVerdict verdict);
 
-/// All cells: more than 2000, fewer at the finer resolutions. @param quick  only the coarsest
+/// All cells: more than 2000, fewer at the finer resolutions and with contact of the cloth with itself.
+/// @param quick  only the coarsest, without that contact
 std::vector<StabilityCell> stability_cells(bool quick);
 
 /// Takes ten steps of a cell, four of the finer ones. Never throws for a run that fails.

@@ -198,12 +198,13 @@ Image draw_cell_map(const CellMap& map, const std::vector<CellKind>& kinds, int 
 
 Image draw_cell_legend(const std::vector<CellKind>& kinds, int width)
 {
-    cv::Mat picture = canvas(width, 40);
-    int at = 20;
+    constexpr double size = 0.9;
+    cv::Mat picture = canvas(width, 64);
+    int at = 30;
     for (const CellKind& kind : kinds) {
-        cv::rectangle(picture, {at, 12}, {at + 18, 28}, cv::Scalar(kind.colour[0], kind.colour[1], kind.colour[2]), cv::FILLED);
-        write_text(picture, kind.name, {at + 26, 25}, 0.46);
-        at += 26 + text_size(kind.name, 0.46).width + 30;
+        cv::rectangle(picture, {at, 16}, {at + 30, 46}, cv::Scalar(kind.colour[0], kind.colour[1], kind.colour[2]), cv::FILLED);
+        write_text(picture, kind.name, {at + 42, 40}, size);
+        at += 42 + text_size(kind.name, size).width + 50;
     }
     return image_of(picture);
 }

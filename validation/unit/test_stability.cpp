@@ -23,6 +23,26 @@ TEST_CASE("soft sheets hurled at a sphere end as stable, shortened, refused or g
     }
 }
 
+TEST_CASE("however violently it starts, a sheet that begins free of itself does not end crossed")
+{
+    for (const char* integrator : {"implicit_euler", "bdf2", "implicit_midpoint", "velocity_verlet"})
+        for (const ViolentStart start : {ViolentStart::stretched, ViolentStart::hurled})
+            for (const double step : {1e-3, 1e-2}) {
+                const StabilityResult result = run_cell({integrator, step, 0.01, 16, 0, start, true});
+                INFO(integrator << ", step " << step << ", " << name_of(start));
+                CHECK(result.tangled == 0);
+                CHECK(result.crossed == 0);
+                CHECK(name_of(result.verdict) != std::string(name_of(StabilityVerdict::garbage)));
+            }
+}
+
+TEST_CASE("crossings that a violent start has are told, and need not be gone after ten short steps")
+{
+    const StabilityResult result = run_cell({"implicit_euler", 1e-4, 0.01, 16, 0, ViolentStart::crumpled, true});
+    CHECK(result.tangled > 0);
+    CHECK(result.verdict == StabilityVerdict::stable);
+}
+
 TEST_CASE("a run that the stability limit ends keeps the last accepted state and the contact planes that belong to it")
 {
     SceneRunner runner("builtin:sphere", {"sheet.resolution=16", "sheet.fabric=cotton", "membrane.scale=0.01",
