@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -23,10 +24,24 @@ constexpr int coarsest_vertices = 300;   // factorising this costs less than a f
 // A scene whose mesh alone could not be held is refused before it is made; the plan then counts exactly.
 constexpr double bytes_per_vertex = 3000;
 
+constexpr double sliver = 0.1;   // of a typical edge: triangles less high are told of
+
 // A level sheet has nothing that tells it which way to fold: it starts off its plane by up to this part of its extent,
 // in a smooth pattern that does not depend on the mesh, so that finer meshes fold alike.
 constexpr double ripple = 1e-4;
 constexpr int ripple_waves = 7;
+
+double least_height(const Cloth& cloth)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const Face& f : cloth.faces) {
+        const Vec2 a = cloth.panel_coordinates[f[1]] - cloth.panel_coordinates[f[0]];
+        const Vec2 b = cloth.panel_coordinates[f[2]] - cloth.panel_coordinates[f[0]];
+        const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()}));
+        least = std::min(least, std::abs(a.x() * b.y() - a.y() * b.x()) / longest);
+    }
+    return least;
+}
 
 Pattern read_pattern(const Scene& scene)
 {
@@ -160,6 +175,11 @@ SceneModel build_scene_model(const Scene& scene)
     result.warnings.insert(result.warnings.end(), odd.begin(), odd.end());
     result.sews = !result.model.cloth.seam_pairs.empty();
     result.edge_length = typical_edge(result.model.cloth);
+    result.least_height = least_height(result.model.cloth);
+    if (scene.contact.self && result.least_height < sliver * result.edge_length)
+        result.warnings.push_back(fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
+                                              "presses on cloth from less than that height only",
+                                              result.least_height, result.edge_length));
     if (!scene.has_garment()) {
         add_ripple(result.model.cloth);
         for (Cloth& coarser : result.model.coarser) add_ripple(coarser);

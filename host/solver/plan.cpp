@@ -45,12 +45,12 @@ double contact_stiffness(const Scene& scene, const SceneModel& model)
 }
 
 // Where cloth begins to press on cloth: at its thickness, or at contact.gap if that is more, but well below the length
-// of an edge, since neighbours in a panel must not press on each other.
+// of an edge and below the height of any triangle, since neighbours in a panel must not press on each other.
 double cloth_gap(const Scene& scene, const SceneModel& model)
 {
     double thickest = scene.contact.gap;
     for (const auto& [name, fabric] : model.model.fabrics) thickest = std::max(thickest, fabric.thickness);
-    return std::min(thickest, 0.4 * model.edge_length);
+    return std::min({thickest, 0.4 * model.edge_length, 0.8 * model.least_height});
 }
 
 bool any_friction(const SceneModel& model)
