@@ -1,10 +1,12 @@
 #include "bench/stability.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <mutex>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -38,29 +40,47 @@ const std::vector<CellKind>& kinds()
     return all;
 }
 
-// Small sheets leave threads idle: every thread has cells of its own instead.
-std::vector<StabilityResult> run_cells(const std::vector<StabilityCell>& cells)
+using Keep = std::function<void(const std::vector<StabilityResult>&)>;
+
+constexpr std::size_t cells_between_files = 250;
+
+// Small sheets leave threads idle: every thread has cells of its own instead. Whoever stops a long run keeps the cells
+// that are done.
+std::vector<StabilityResult> run_cells(const std::vector<StabilityCell>& cells, const Keep& keep)
 {
-    std::vector<StabilityResult> results(cells.size());
-    std::atomic<std::size_t> next = 0;
+    std::vector<std::optional<StabilityResult>> done(cells.size());
+    std::size_t count = 0, next = 0;
+    std::mutex access;
+    const auto results = [&done] {
+        std::vector<StabilityResult> all;
+        for (std::size_t i = 0; i < done.size() && done[i]; ++i) all.push_back(*done[i]);
+        return all;
+    };
     const auto work = [&] {
         tbb::task_arena alone(1);
-        for (std::size_t i = next++; i < cells.size(); i = next++) {
-            alone.execute([&] { results[i] = run_cell(cells[i]); });
-            if (i % 100 == 99) std::cerr << fmt::format("{} of {} cells\n", i + 1, cells.size());
+        for (;;) {
+            std::unique_lock lock(access);
+            if (next == cells.size()) return;
+            const std::size_t i = next++;
+            lock.unlock();
+            StabilityResult result;
+            alone.execute([&] { result = run_cell(cells[i]); });
+            lock.lock();
+            done[i] = std::move(result);
+            if (++count % 100 == 0) std::cerr << fmt::format("{} of {} cells\n", count, cells.size());
+            if (count % cells_between_files == 0) keep(results());
         }
     };
     std::vector<std::thread> threads;
     for (int t = 0; t < tbb::this_task_arena::max_concurrency(); ++t) threads.emplace_back(work);
     for (std::thread& thread : threads) thread.join();
-    return results;
+    return results();
 }
 
-Survey run_survey(bool quick)
+Survey run_survey(bool quick, const Keep& keep)
 {
     Survey survey;
-    const std::vector<StabilityCell> cells = stability_cells(quick);
-    survey.cells = run_cells(cells);
+    survey.cells = run_cells(stability_cells(quick), keep);
     for (const IntegratorInfo& info : integrators()) {
         if (!info.is_explicit) continue;
         for (double stiffness : {0.01, 1.0, 100.0})
@@ -150,7 +170,8 @@ Image picture(const Survey& survey)
     for (const auto& [resolution, self_contact] : rows)
         for (const IntegratorInfo& info : integrators()) {
             const CellMap map = map_of(survey.cells, info.name, resolution, self_contact);
-            if (!map.kind.empty()) maps.push_back(draw_cell_map(map, kinds(), 480, 460));
+            const bool complete = map.kind.size() == map.rows.size() * map.columns.size();
+            if (!map.kind.empty() && complete) maps.push_back(draw_cell_map(map, kinds(), 480, 460));
         }
     const int across = int(std::count_if(integrators().begin(), integrators().end(),
                                          [](const IntegratorInfo& info) { return info.order > 0; }));
@@ -192,13 +213,15 @@ void bench_stability(bool json, const std::vector<std::string>& arguments, std::
     auto options = read_options("bench stability", arguments, {"--output", "--quick"}, "--output FOLDER or --quick 1");
     const std::string folder = options.count("--output") ? options["--output"] : "bench-out";
     const bool quick = options.count("--quick") && read_number("--quick", options["--quick"], 0, 1, "0 or 1") == 1;
-    const Survey survey = run_survey(quick);
     std::filesystem::create_directories(folder);
-    const std::string report = json_report(survey).dump(2) + "\n";
-    write_file_atomically(folder + "/stability.json", report);
-    write_file_atomically(folder + "/stability.csv", csv_text(survey.cells));
-    write_png(folder + "/stability.png", picture(survey));
-    out << (json ? report : table(survey));
+    const auto keep = [&folder](const Survey& survey) {
+        write_file_atomically(folder + "/stability.json", json_report(survey).dump(2) + "\n");
+        write_file_atomically(folder + "/stability.csv", csv_text(survey.cells));
+        write_png(folder + "/stability.png", picture(survey));
+    };
+    const Survey survey = run_survey(quick, [&keep](const auto& cells) { keep({cells, {}}); });
+    keep(survey);
+    out << (json ? json_report(survey).dump(2) + "\n" : table(survey));
     if (!json) out << folder << "/stability.png\n";
 }
 

@@ -130,10 +130,10 @@ std::vector<StabilityCell> stability_cells(bool quick)
     };
     const std::vector<double> fine = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
     std::vector<Grid> grids = {{16, fine, {0.01, 0.1, 1, 10, 100}, {0, 5}},
+                               {16, {1e-4, 1e-3, 1e-2, 1e-1}, {0.01, 1, 100}, {0}, true},
                                {32, {1e-5, 1e-4, 1e-3, 1e-2, 1e-1}, {0.01, 1, 100}, {0, 5}},
                                {64, {1e-5, 1e-3, 1e-1}, {0.01, 1, 100}, {0}},
-                               {128, {1e-4, 1e-2}, {1}, {0}},
-                               {16, {1e-4, 1e-3, 1e-2, 1e-1}, {0.01, 1, 100}, {0}, true}};
+                               {128, {1e-4, 1e-2}, {1}, {0}}};
     if (quick) grids.resize(1);
     std::vector<StabilityCell> cells;
     for (const Grid& grid : grids)
