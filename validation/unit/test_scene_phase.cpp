@@ -25,10 +25,10 @@ TEST_CASE("the automatic integrator goes straight to rest only where the way the
     CHECK(chosen("builtin:tshirt", {}) == "implicit_euler");
 }
 
-TEST_CASE("the automatic integrator of a motion is bdf2, and a named one is taken as named")
+TEST_CASE("the automatic integrator of a motion is bdf2, among bodies implicit Euler, and a named one is taken as named")
 {
     CHECK(chosen("builtin:hanging", {"solver.until=0.5"}) == "bdf2");
-    CHECK(chosen("builtin:sphere", {}) == "bdf2");
+    CHECK(chosen("builtin:sphere", {}) == "implicit_euler");
     CHECK(chosen("builtin:sphere", {"solver.integrator=rk4"}) == "rk4");
     CHECK(chosen("builtin:hanging", {"solver.integrator=implicit_euler"}) == "implicit_euler");
 }
