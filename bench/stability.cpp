@@ -175,7 +175,8 @@ Image picture(const Survey& survey)
         }
     const int across = int(std::count_if(integrators().begin(), integrators().end(),
                                          [](const IntegratorInfo& info) { return info.order > 0; }));
-    return stack(tile(maps, across), draw_cell_legend(kinds(), 2400));
+    const Image legend = draw_cell_legend(kinds(), 2400);
+    return maps.empty() ? legend : stack(tile(maps, across), legend);
 }
 
 std::string table(const Survey& survey)
