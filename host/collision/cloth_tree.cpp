@@ -170,8 +170,8 @@ void ClothTree::set_frame(const double* from, const double* move, int stride, co
     });
 }
 
-// How much of the searched move the corners have gone, by least squares.
-double ClothTree::part_gone() const
+// How much of the searched move brings the corners to where they are, by least squares.
+double ClothTree::part_gone(const std::vector<Vec3>& at) const
 {
     using Sums = std::array<double, 2>;
     const Sums sums = tbb::parallel_deterministic_reduce(
@@ -179,7 +179,7 @@ double ClothTree::part_gone() const
         [&](const Range& range, Sums sum) {
             for (int k = range.begin(); k < range.end(); ++k) {
                 const Vec3 way = searched_end_[k] - searched_start_[k];
-                sum[0] += way.dot(start_[k] - searched_start_[k]);
+                sum[0] += way.dot(at[k] - searched_start_[k]);
                 sum[1] += way.squaredNorm();
             }
             return sum;
@@ -191,13 +191,14 @@ double ClothTree::part_gone() const
 bool ClothTree::still_complete(const TreeBodies& bodies, double reach, double body_reach) const
 {
     if (!valid_ || reach > reach_ || body_reach > body_reach_ || bodies.moves || bodies.version != body_version_) return false;
-    const double part = part_gone();
+    const double part = part_gone(start_), end_part = part_gone(end_);
     return tbb::parallel_reduce(
         Range(0, particles_, 4096), true,
         [&](const Range& range, bool all) {
             for (int k = range.begin(); k < range.end() && all; ++k) {
-                const Vec3 at = searched_start_[k] + part * (searched_end_[k] - searched_start_[k]);
-                const double strayed = std::max((start_[k] - at).squaredNorm(), (end_[k] - at).squaredNorm());
+                const Vec3 way = searched_end_[k] - searched_start_[k];
+                const double strayed = std::max((start_[k] - searched_start_[k] - part * way).squaredNorm(),
+                                                (end_[k] - searched_start_[k] - end_part * way).squaredNorm());
                 all = strayed <= double(slack_of_[k]) * slack_of_[k];
             }
             return all;

@@ -60,8 +60,8 @@ struct TreeCounts {
 /// linear in the positions, checking both ends of a move covers the move. This is a rigorous form of the test on
 /// cones of normals.
 ///
-/// Candidates stay complete while every corner is within its slack of where the searched move has it at some common
-/// moment, in a frame that moves along with the cloth, and while every skipped subtree still passes the test.
+/// Candidates stay complete while every corner begins and ends within its slack of where the searched move has it at a
+/// moment that all have in common, in a frame that moves along with the cloth, and while every skipped subtree still passes the test.
 class ClothTree {
 public:
     /// @param slack  how far corners may stray from the searched move before it has to be searched again [m]
@@ -124,7 +124,7 @@ private:
     void own_primitives();
     void set_frame(const double* from, const double* move, int stride, const TreeBodies& bodies);
     bool still_complete(const TreeBodies& bodies, double reach, double body_reach) const;
-    double part_gone() const;
+    double part_gone(const std::vector<Vec3>& at) const;
     void refit_gradients();
     void refit_boxes(bool bodies_move, bool bodies_too);
     void search();

@@ -180,10 +180,14 @@ void ClothContact::clear_way(State& state, std::vector<real>& move, bool uniform
 {
     const Way way{state.pos, &move, nullptr, state.size.vertex_stride};
     cover(state, way);
-    held_.assign(seen_.size(), 0);
-    bool cut = false;
-    for (int round = 0; round < rounds && !uniform && hold_back(move, way, round == 0); ++round) cut = true;
-    if (uniform || cut) {
+    bool free = false, cut = false;
+    for (int round = 0; round < rounds && !uniform && !free; ++round) {
+        free = !hold_back(move, way);
+        if (free) break;
+        cut = true;
+        cover(state, way);   // what moved along with a vertex that is held back now comes nearer to it
+    }
+    if (!free) {
         const float part = scale_all(way);
         if (part < 1) for_each_item(int(move.size()), [&move, part](int i) { move[i] *= part; });
         cut = cut || part < 1;
@@ -200,56 +204,42 @@ bool ClothContact::is_clear_from(State& state, const std::vector<real>& from)
     state.pos = from;
     const Way way{state.pos, &move, nullptr, state.size.vertex_stride};
     cover(state, way);
-    held_.assign(seen_.size(), 0);
     const bool clear = scale_all(way) == 1;
     state.pos = end;
     update(state);
     return clear;
 }
 
-// How much of the move a candidate is free for.
-float ClothContact::free_part(PairCandidate candidate, Look& look, const Way& way, bool measured) const
-{
-    const PairCorners u = moves(candidate, way);
-    const double approach = pair_approach(u, candidate.edges);
-    const PairCorners x = places(candidate, way);
-    if (!measured) look.distance = rounded_down(pair_distance(x, candidate.edges));
-    look.approach = std::max(look.approach, rounded_up(approach));
-    look.near = look.distance - look.approach < gap_;
-    const double least = least_distance(candidate, look);
-    if (approach < look.distance - least || may_pass(candidate)) return 1;
-    const double free = free_fraction(x, u, candidate.edges, look.distance, approach, least);
-    return free < 1 ? rounded_down(free) : 1;
-}
-
-std::vector<float> ClothContact::free_parts(const Way& way, bool first)
+// How much of the move each candidate is free for.
+std::vector<float> ClothContact::free_parts(const Way& way) const
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
     std::vector<float> part(candidates.size(), 1.0f);
     for_each_item(int(candidates.size()), [&, this](int k) {
-        Look& look = looks_[k];
-        const bool measured = look.near;
-        // What moved along with a vertex that is held back now comes nearer to it.
-        const auto& c = candidates[k].corner;
-        const bool changed = std::any_of(c.begin(), c.end(), [this](int v) { return held_[slot(v)] != 0; });
-        const bool may_hit = measured && look.approach >= look.distance - least_distance(candidates[k], look);
-        if (changed || (first && may_hit)) part[k] = free_part(candidates[k], look, way, measured);
+        const Look& look = looks_[k];
+        if (!look.near) return;
+        const PairCandidate& candidate = candidates[k];
+        const double least = least_distance(candidate, look);
+        if (look.approach < look.distance - least || may_pass(candidate)) return;
+        const double free = free_fraction(places(candidate, way), moves(candidate, way), candidate.edges, look.distance,
+                                          look.approach, least);
+        if (free < 1) part[k] = rounded_down(free);
     });
     return part;
 }
 
 // The part of the whole move that nothing stands in the way of.
-float ClothContact::scale_all(const Way& way)
+float ClothContact::scale_all(const Way& way) const
 {
-    const std::vector<float> part = free_parts(way, true);
+    const std::vector<float> part = free_parts(way);
     return part.empty() ? 1.0f : *std::min_element(part.begin(), part.end());
 }
 
 // One round: cuts the moves of those who would hit something. Returns whether there were any.
-bool ClothContact::hold_back(std::vector<real>& move, const Way& way, bool first)
+bool ClothContact::hold_back(std::vector<real>& move, const Way& way) const
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
-    const std::vector<float> part = free_parts(way, first);
+    const std::vector<float> part = free_parts(way);
     std::vector<float> of_vertex(area_.size(), 1.0f);
     bool any = false;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -260,7 +250,6 @@ bool ClothContact::hold_back(std::vector<real>& move, const Way& way, bool first
     }
     for_each_item(int(area_.size()), [&](int v) {
         if (of_vertex[v] == 1) return;
-        held_[v] = 1;
         for (int c = 0; c < 3; ++c) move[c * way.stride + v] *= of_vertex[v];
     });
     return any;
@@ -426,7 +415,6 @@ bool ClothContact::advance_held(State& state, const Follow& follow)
         ride(state, way, move);
     }
     cover(state, way);
-    held_.assign(seen_.size(), 0);
     keep_ = held_keep;
     nearest_ = held_scarce * gap_;
     const float part = scale_all(way);

@@ -117,10 +117,9 @@ private:
     void cover(const State& state, const Way& way);
     void measure_ways(const Way& way);
     void look_at_all(const State& state, const Way& way, bool afresh);
-    float free_part(PairCandidate candidate, Look& look, const Way& way, bool measured) const;
-    std::vector<float> free_parts(const Way& way, bool first);
-    float scale_all(const Way& way);
-    bool hold_back(std::vector<real>& move, const Way& way, bool first);
+    std::vector<float> free_parts(const Way& way) const;
+    float scale_all(const Way& way) const;
+    bool hold_back(std::vector<real>& move, const Way& way) const;
     void list_pairs(State& state);
     void list_slots(State& state) const;
     void recall(State& state) const;
@@ -147,7 +146,6 @@ private:
     std::vector<Look> looks_;                      // per candidate
     std::vector<Vec3> seen_;                       // per corner: where it was at the last look [m]
     std::vector<float> gone_, way_;                // per corner: how far it has gone since, and is to go [m]
-    std::vector<char> held_;                       // per corner: held back in the last move
     std::vector<char> tangled_, inside_, pierced_; // per particle
     std::vector<int> listed_;                      // candidates that are pairs now, in the pairs' order
     std::vector<real> memory_;
