@@ -12,7 +12,7 @@ namespace {
 
 constexpr double keep = 0.1;             // part of a pair's distance that a move leaves, or of the gap if that is less
 constexpr double held_keep = 0.5;        // the same for moves of bodies and held vertices: cloth makes way in between
-constexpr double apart = 1e-3;           // of the gap: what pairs never come to, as their barrier has it
+constexpr double apart = 5e-3;           // of the gap: what pairs never come to, as their barrier has it
 constexpr double scarce = 1e-6;          // part of the gap: pairs as near as that come nearer by small parts only
 constexpr double held_scarce = 1e-4;     // the same for moves of bodies and held vertices
 constexpr double nearly_all = 0.9;       // such a small part leaves this much
@@ -89,7 +89,7 @@ double ClothContact::gap_of(const PairCandidate& candidate) const
     return candidate.edges || candidate.corner[0] < 0 ? body_gap_ : 0;
 }
 
-// How near a pair may come in one move. No barrier lets it come to a thousandth of its gap, and many moves one after the
+// How near a pair may come in one move. No barrier lets it come to a two-hundredth of its gap, and many moves one after the
 // other must not lead to where rounding decides either.
 double ClothContact::least_distance(const PairCandidate& candidate, const Look& look) const
 {

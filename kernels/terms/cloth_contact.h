@@ -1,10 +1,10 @@
 // Contact of the cloth with itself, and of its faces and edges with those of bodies: pairs of a vertex and a face, and
 // of two edges.
 //     r = sum_i w_i x_i  [m]   from the closest point of the second side to that of the first;   d = |r|,  n = r / d
-//     s = (d - 0.001 g) / h      h = 0.999 g
+//     s = (d - 0.005 g) / h      h = 0.995 g
 //     E = A P h b(s)  [J]       f_i = -w_i A P b'(s) n  [N]       K = A P b''(s) / h n n^T  [N/m]
 // g the pair's distance at which contact sets in, P a pressure, A the pair's area, b of barrier.h. No force brings a pair
-// nearer than g / 1000, so that places rounded to float do not touch either. A corner below zero is a
+// nearer than g / 200, so that places rounded to float do not touch either. A corner below zero is a
 // body's: it stands at body_point[-1 - corner] and takes no force.
 // Source: Li and others 2021 (C-IPC), with distances in place of their squares. K leaves out how n turns: what it leaves
 // out is negative, since f pushes, so that K is the projected stiffness at once.
@@ -42,11 +42,11 @@ KERNEL_FN void pair_frame(int pair, const cloth_contact_args* a)
     a->pair_distance[pair] = d;
 }
 
-KERNEL_FN real pair_room(int pair, const cloth_contact_args* a) { return REAL(0.999) * a->pair_gap[pair]; }
+KERNEL_FN real pair_room(int pair, const cloth_contact_args* a) { return REAL(0.995) * a->pair_gap[pair]; }
 
 KERNEL_FN barrier_jet pair_barrier(int pair, const cloth_contact_args* a)
 {
-    return open_barrier_at((a->pair_distance[pair] - REAL(0.001) * a->pair_gap[pair]) / pair_room(pair, a));
+    return open_barrier_at((a->pair_distance[pair] - REAL(0.005) * a->pair_gap[pair]) / pair_room(pair, a));
 }
 
 KERNEL_FN real cloth_contact_energy(int pair, const cloth_contact_args* a)
