@@ -49,6 +49,7 @@ void StepControl::restore(const Saved& saved)
     const auto arrays = integrator_.history();
     for (std::size_t k = 0; k < arrays.size(); ++k) *arrays[k] = saved.history[k];
     if (phase_.contact()) phase_.contact()->update(state);
+    phase_.newton().list_pairs();   // what was listed on the way that is given up says nothing of this place
 }
 
 // The length of the next step when `left` seconds are to be covered; an explicit scheme divides them evenly.

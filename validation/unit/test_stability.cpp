@@ -29,7 +29,7 @@ TEST_CASE("however violently it starts, a sheet that begins free of itself does 
         for (const ViolentStart start : {ViolentStart::stretched, ViolentStart::hurled})
             for (const double step : {1e-3, 1e-2}) {
                 const StabilityResult result = run_cell({integrator, step, 0.01, 16, 0, start, true});
-                INFO(integrator << ", step " << step << ", " << name_of(start));
+                INFO(integrator << ", step " << step << ", " << name_of(start) << ", energy ratio " << result.energy_ratio << " " << result.message);
                 CHECK(result.tangled == 0);
                 CHECK(result.crossed == 0);
                 CHECK(name_of(result.verdict) != std::string(name_of(StabilityVerdict::garbage)));
