@@ -48,8 +48,7 @@ public:
     void update(State& state);
 
     /// Shortens a move until its straight way is free: no pair comes nearer than a tenth of its distance or of the gap,
-    /// whichever is less. Also lists
-    /// all pairs that are in contact somewhere on the way.
+    /// whichever is less. Also lists all pairs that are in contact somewhere on the way.
     /// @param move     planes like pos [m]
     /// @param uniform  true: the whole move is scaled; false: only the vertices around what would be hit are held back
     void clear_way(State& state, std::vector<real>& move, bool uniform);
