@@ -182,7 +182,7 @@ void ClothContact::clear_way(State& state, std::vector<real>& move, bool uniform
     cover(state, way);
     bool free = false, cut = false;
     for (int round = 0; round < rounds && !uniform && !free; ++round) {
-        free = !hold_back(move, way);
+        free = !hold_back(move, way, free_parts(way));
         if (free) break;
         cut = true;
         cover(state, way);   // what moved along with a vertex that is held back now comes nearer to it
@@ -236,10 +236,10 @@ float ClothContact::scale_all(const Way& way) const
 }
 
 // One round: cuts the moves of those who would hit something. Returns whether there were any.
-bool ClothContact::hold_back(std::vector<real>& move, const Way& way) const
+// @param part  of each candidate, as free_parts gives it
+bool ClothContact::hold_back(std::vector<real>& move, const Way& way, const std::vector<float>& part) const
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
-    const std::vector<float> part = free_parts(way);
     std::vector<float> of_vertex(area_.size(), 1.0f);
     bool any = false;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -395,6 +395,26 @@ void ClothContact::ride(const State& state, const Way& way, std::vector<real>& m
     });
 }
 
+// Cloth that only goes along need not come as far as what leads it: who would hit something stays behind, so that a jam in
+// one place does not stop pins and bodies in another. What they themselves would hit is left to the caller.
+void ClothContact::let_followers_wait(const State& state, const Way& way, std::vector<real>& move)
+{
+    const auto leads = [&](int corner) {
+        return corner >= 0 ? state.inv_mass[corner] == 0
+                           : way.body_move && !(*way.body_move)[-1 - corner].isZero(0);
+    };
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<float> part = free_parts(way);
+        const std::vector<PairCandidate>& candidates = tree_.candidates();
+        for_each_item(int(part.size()), [&](int k) {
+            const auto& c = candidates[k].corner;
+            if (part[k] < 1 && std::any_of(c.begin(), c.end(), leads)) part[k] = 1;
+        });
+        if (!hold_back(move, way, part)) return;
+        cover(state, way);
+    }
+}
+
 bool ClothContact::advance_held(State& state, const Follow& follow)
 {
     if (!pending_) return false;
@@ -417,6 +437,7 @@ bool ClothContact::advance_held(State& state, const Follow& follow)
     cover(state, way);
     keep_ = held_keep;
     nearest_ = held_scarce * gap_;
+    let_followers_wait(state, way, move);
     const float part = scale_all(way);
     keep_ = keep;
     nearest_ = scarce * gap_;

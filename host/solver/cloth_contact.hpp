@@ -118,7 +118,8 @@ private:
     void look_at_all(const State& state, const Way& way, bool afresh);
     std::vector<float> free_parts(const Way& way) const;
     float scale_all(const Way& way) const;
-    bool hold_back(std::vector<real>& move, const Way& way) const;
+    bool hold_back(std::vector<real>& move, const Way& way, const std::vector<float>& part) const;
+    void let_followers_wait(const State& state, const Way& way, std::vector<real>& move);
     void list_pairs(State& state);
     void list_slots(State& state) const;
     void recall(State& state) const;
