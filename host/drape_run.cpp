@@ -43,12 +43,19 @@ void DrapeRun::start_phase(const std::string& name, const std::vector<Vec3>& pos
 void DrapeRun::begin()
 {
     recorder_ = std::make_unique<RunRecorder>(scene_, model_, options_, false);
-    const std::string& first = plan_.phases.front().name;
     progress_.counters.phases["assemble"] = elapsed();
-    start_phase(first, model_.model.cloth.positions, {});
-    recorder_->open_phase(first, phase_->topology(), -1);
-    progress_.phase = plan_.coarse_start ? "coarse" : first;
-    if (scene_.output.frames) recorder_->write_frame(*phase_, {}, elapsed(), true);
+    start_afresh(plan_.coarse_start ? "coarse" : plan_.phases.front().name);
+}
+
+// Starts from the scene's own places. While coarser cloths are draped, the run's own waits for its shape.
+void DrapeRun::start_afresh(const std::string& progress)
+{
+    const std::string phase = progress == "coarse" ? "drape" : progress;
+    start_phase(phase, model_.model.cloth.positions, {});
+    recorder_->open_phase(phase, phase_->topology(), -1);
+    progress_.phase = progress;
+    const bool shows = progress != "coarse" || !model_.sews;   // panels that have been joined unsewn are no sight
+    if (scene_.output.frames && shows) recorder_->write_frame(*phase_, {}, elapsed(), true);
 }
 
 // Nothing in the folder is touched before the checkpoint has turned out to be the right one.
@@ -106,13 +113,8 @@ bool DrapeRun::after_step(const StepEvent& event)
 PhaseEnd DrapeRun::run_sewing()
 {
     const TraceScope scope("sew");
-    SewingOptions options;
-    options.step = scene_.solver.step;
-    options.closed = scene_.seams.closed;
-    options.energy_tolerance = scene_.solver.energy_tolerance;
-    options.max_time = scene_.seams.max_time;
-    options.first_stiffness = plan_.phases.front().params.seam.stiffness;
-    return sew(*phase_, options, progress_.sewing, [this](const StepEvent& event) { return after_step(event); });
+    return sew(*phase_, sewing_options(scene_, plan_), progress_.sewing,
+               [this](const StepEvent& event) { return after_step(event); });
 }
 
 void DrapeRun::join_seams()
@@ -150,11 +152,18 @@ EquilibriumOptions DrapeRun::draping_options()
 PhaseEnd DrapeRun::run_coarse()
 {
     const TraceScope scope("coarse");
-    const CoarseStart start = drape_coarse_first(scene_, model_, plan_.phases.back(), draping_options(), progress_.draping,
-                                                 profile_, [this](const StepEvent& event) { return after_step(event); });
+    const CoarseStart start = drape_coarse_first(scene_, model_, draping_options(), progress_.draping, profile_,
+                                                 [this](const StepEvent& event) { return after_step(event); });
     if (start.stopped) return PhaseEnd::stopped;
     coarse_stages_ = start.stages;
-    place_particles(*phase_, start.positions);
+    progress_.phase = "drape";
+    if (!start.positions.empty()) {
+        start_phase("drape", start.positions, {});
+        save();
+    } else if (model_.sews) {
+        recorder_->close_phase();
+        start_afresh("sew");
+    }
     return PhaseEnd::reached;
 }
 
@@ -171,30 +180,28 @@ PhaseEnd DrapeRun::run_draping()
 PhaseEnd DrapeRun::run_phases()
 {
     double start = elapsed();
-    const auto timed = [&](PhaseEnd end) {
-        progress_.counters.phases[progress_.phase] += elapsed() - start;
+    const auto timed = [&](const char* name, PhaseEnd end) {
+        progress_.counters.phases[name] += elapsed() - start;
         start = elapsed();
         return end;
     };
+    if (progress_.phase == "coarse") {
+        const PhaseEnd end = timed("coarse", run_coarse());
+        if (end != PhaseEnd::reached) return end;
+    }
     if (progress_.phase == "sew") {
-        const PhaseEnd end = timed(run_sewing());
+        const PhaseEnd end = timed("sew", run_sewing());
         if (end != PhaseEnd::reached) return end;
         join_seams();
     }
     if (progress_.phase == "press") {
-        const PhaseEnd end = timed(run_pressing());
+        const PhaseEnd end = timed("press", run_pressing());
         if (end != PhaseEnd::reached) return end;
         progress_.phase = "drape";
         if (scene_.output.frames) recorder_->write_frame(*phase_, {}, elapsed(), true);
         save();
     }
-    if (progress_.phase == "coarse") {
-        const PhaseEnd end = timed(run_coarse());
-        if (end != PhaseEnd::reached) return end;
-        progress_.phase = "drape";
-        save();
-    }
-    return timed(run_draping());
+    return timed("drape", run_draping());
 }
 
 // Cloth that started with intersections has come to rest only when none is left.

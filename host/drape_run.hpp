@@ -24,6 +24,7 @@ public:
 private:
     void start_phase(const std::string& name, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
     void begin();
+    void start_afresh(const std::string& progress);
     void resume();
     void save();
     PhaseEnd run_phases();

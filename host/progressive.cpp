@@ -1,58 +1,111 @@
 #include "host/progressive.hpp"
 
 #include <chrono>
+#include <memory>
+#include <optional>
 
 #include "host/cloth_picture.hpp"
 #include "host/collision/self_intersections.hpp"
 #include "host/scene_phase.hpp"
+#include "host/solver/fabric_contact.hpp"
 #include "host/solver/launch.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
 namespace {
 
-// The cloth `level` of a model with what is coarser than it.
-ClothModel model_from(const ClothModel& model, std::size_t level)
-{
-    const auto from = std::ptrdiff_t(level) + 1;
-    return {model.coarser[level],
-            {model.coarser.begin() + from, model.coarser.end()},
-            {model.transfers.begin() + from, model.transfers.end()},
-            model.fabrics,
-            model.bodies};
-}
+constexpr double coarsest_edge = 0.025;   // [m], of garments: longer ones do not lie around arms as the finer ones will
 
-// A shape that was carried over is near its rest: the static energy is tried before any motion.
-DrapeProgress near_rest(double time)
+constexpr std::size_t worth_sewing_first = 2;   // levels below a garment: with one, its own drape costs as much as it saves
+
+// What hangs freely is near its rest in the shape that was carried over: the static energy is tried before any motion.
+// Cloth that lies on bodies has folds that only the finer mesh can make, and is not.
+DrapeProgress after_carrying(double time, bool lies_on_bodies)
 {
     DrapeProgress progress;
     progress.time = time;
-    progress.residual = progress.switch_residual;
+    if (!lies_on_bodies) progress.residual = progress.switch_residual;
     return progress;
 }
 
+// One coarser cloth on its way to rest.
+struct Stage {
+    const Scene& scene;
+    SceneModel model;
+    RunPlan plan = make_plan(scene, model);
+    std::optional<BodyQuery> query;
+    std::unique_ptr<Phase> phase;
+
+    Stage(const Scene& of, const SceneModel& finest, std::size_t level) : scene(of), model(coarser_model(finest, level))
+    {
+        if (plan.phases.back().queries_bodies) query.emplace(model.model.bodies, cloth_reach(finest.model.cloth));
+    }
+
+    void start(const PhasePlan& with, const std::vector<Vec3>& positions, Profile& profile)
+    {
+        const std::vector<Vec3> from = positions;   // they may be those of the phase that ends
+        phase.reset();
+        phase = std::make_unique<Phase>(model.model, phase_options(scene, model, with), query ? &*query : nullptr, profile,
+                                        from, std::vector<Vec3>{});
+    }
+};
+
+// Sews a garment at this stage and presses its seams.
+PhaseEnd sew_stage(Stage& stage, Profile& profile, const AfterStep& after_step)
+{
+    SewingOptions options = sewing_options(stage.scene, stage.plan);
+    SewingProgress sewing;
+    stage.start(stage.plan.phases.front(), stage.model.model.cloth.positions, profile);
+    const PhaseEnd end = sew(*stage.phase, options, sewing, after_step);
+    if (end != PhaseEnd::reached) return end;
+    stage.start(stage.plan.phases.back(), stage.phase->positions(), profile);
+    PressProgress pressing;
+    return press_seams(*stage.phase, options.step, pressing, after_step);
+}
+
+// @param sews  the garment has not been sewn yet
 // Returns whether the run goes on.
-bool drape_stage(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress, const AfterStep& after_step,
-                 CoarseStage& stage)
+bool drape_stage(Stage& stage, bool sews, const std::vector<Vec3>& positions, const EquilibriumOptions& options,
+                 DrapeProgress& progress, Profile& profile, const AfterStep& after_step, CoarseStage& report)
 {
     const AfterStep hear = [&](const StepEvent& event) {
-        stage.newton_iterations += event.newton_iterations;
-        stage.linear_iterations += event.linear_iterations;
+        report.newton_iterations += event.newton_iterations;
+        report.linear_iterations += event.linear_iterations;
         return after_step(event);
     };
     try {
-        if (drape_to_equilibrium(phase, options, progress, hear) == PhaseEnd::stopped) return false;
-        stage.residual = phase.newton().static_residual();
+        PhaseEnd end = PhaseEnd::reached;
+        if (sews)
+            end = sew_stage(stage, profile, hear);
+        else
+            stage.start(stage.plan.phases.back(), positions, profile);
+        if (end == PhaseEnd::reached) end = drape_to_equilibrium(*stage.phase, options, progress, hear);
+        if (end == PhaseEnd::stopped) return false;
+        report.used = end == PhaseEnd::reached || !sews;
+        report.residual = stage.phase->newton().static_residual();
     } catch (const DivergenceError&) {
-        stage.used = false;
+        report.used = false;
     }
     return true;
 }
 
-int intersections_of(const Cloth& cloth, const std::vector<Vec3>& positions)
+// Of a cloth with itself, and with the bodies whose surfaces its faces must not meet.
+int intersections_of(const Cloth& cloth, const std::vector<Body>& bodies, const std::vector<Vec3>& positions)
 {
-    const TraceScope scope("self_intersections");
-    return int(self_intersections(positions, shared_faces(cloth, make_topology(cloth, true))).size());
+    const TraceScope scope("intersections");
+    const std::vector<Face> faces = shared_faces(cloth, make_topology(cloth, true));
+    std::size_t count = self_intersections(positions, faces).size();
+    for (const Body& body : bodies)
+        if (!clear_by_vertices(body, cloth)) count += mutual_intersections(positions, faces, body.mesh).size();
+    return int(count);
+}
+
+// The coarsest cloth that a scene is started from.
+std::size_t levels_used(const Scene& scene, const SceneModel& model)
+{
+    std::size_t levels = model.model.coarser.size();
+    while (scene.has_garment() && levels > 0 && typical_edge(model.model.coarser[levels - 1]) > coarsest_edge) --levels;
+    return levels;
 }
 
 }  // namespace
@@ -64,11 +117,14 @@ std::string why_no_coarse_start(const Scene& scene, const SceneModel& model)
     if (scene.solver.until != "equilibrium") return "the run shows a motion (solver.until)";
     if (integrator != "implicit_euler" && integrator != "static") return "solver.integrator asks for another way to rest";
     if (scene.moves()) return "held vertices or bodies move, and the cloth has to follow";
-    if (scene.has_garment()) return "a garment is sewn first";
-    if (!model.model.bodies.empty()) return "there are bodies, and what the cloth meets first decides where it lies";
+    if (!scene.has_garment() && !model.model.bodies.empty())
+        return "there are bodies, and what the cloth meets first decides where it lies";
     if (scene.solver.load_steps > 1) return "the weight grows in steps (solver.load_steps)";
     if (scene.bending.hysteresis) return "bending hysteresis remembers the way (bending.hysteresis)";
-    if (model.model.coarser.empty()) return "there are no coarser meshes of the cloth";
+    const std::size_t levels = levels_used(scene, model);
+    if (levels == 0) return "there are no coarser meshes of the cloth";
+    if (scene.has_garment() && levels < worth_sewing_first)
+        return "the garment is coarse enough to be sewn as it is";
     return "";
 }
 
@@ -84,31 +140,32 @@ std::vector<Vec3> carry_over(const Cloth& fine, const Transfer& transfer, const 
     return result;
 }
 
-CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, const PhasePlan& plan,
-                               const EquilibriumOptions& options, DrapeProgress& progress, Profile& profile,
-                               const AfterStep& after_step)
+CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, const EquilibriumOptions& options,
+                               DrapeProgress& progress, Profile& profile, const AfterStep& after_step)
 {
     EquilibriumOptions coarse = options;
     coarse.integrator = nullptr;
     CoarseStart start;
-    start.positions = model.model.coarser.back().positions;
-    for (std::size_t level = model.model.coarser.size(); level-- > 0;) {
+    for (std::size_t level = levels_used(scene, model); level-- > 0;) {
         const TraceScope scope("coarse_" + std::to_string(level + 1));
         const auto begin = std::chrono::steady_clock::now();
-        SceneModel own;
-        own.model = model_from(model.model, level);
-        const Cloth& finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
-        Phase phase(own.model, phase_options(scene, own, plan), nullptr, profile, start.positions, {});
-        CoarseStage stage{.vertices = phase.state().size.vertex_count};
-        start.stopped = !drape_stage(phase, coarse, progress, after_step, stage);
+        Stage stage(scene, model, level);
+        const Cloth &own = stage.model.model.cloth, &finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
+        const bool carried = !start.positions.empty();
+        CoarseStage report{.vertices = int(own.positions.size())};
+        start.stopped = !drape_stage(stage, model.sews && !carried, carried ? start.positions : own.positions, coarse,
+                                     progress, profile, after_step, report);
         if (start.stopped) return start;
-        start.positions = carry_over(finer, model.model.transfers[level], phase.positions());
-        if (stage.used && phase.cloth_contact()) stage.intersections = intersections_of(finer, start.positions);
-        stage.used = stage.used && stage.intersections == 0;
-        if (!stage.used) start.positions = finer.positions;
-        progress = stage.used ? near_rest(progress.time) : DrapeProgress{.time = progress.time};
-        stage.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        start.stages.push_back(stage);
+        if (report.used) {
+            start.positions = carry_over(finer, model.model.transfers[level], stage.phase->positions());
+            if (stage.phase->cloth_contact())
+                report.intersections = intersections_of(finer, model.model.bodies, start.positions);
+        }
+        report.used = report.used && report.intersections == 0;
+        if (!report.used) start.positions.clear();
+        progress = report.used ? after_carrying(progress.time, !model.model.bodies.empty()) : DrapeProgress{.time = progress.time};
+        report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        start.stages.push_back(report);
     }
     return start;
 }

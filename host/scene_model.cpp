@@ -187,6 +187,22 @@ SceneModel build_scene_model(const Scene& scene)
     return result;
 }
 
+SceneModel coarser_model(const SceneModel& model, std::size_t level)
+{
+    const ClothModel& whole = model.model;
+    const auto from = std::ptrdiff_t(level) + 1;
+    SceneModel result;
+    result.model = {whole.coarser[level],
+                    {whole.coarser.begin() + from, whole.coarser.end()},
+                    {whole.transfers.begin() + from, whole.transfers.end()},
+                    whole.fabrics,
+                    whole.bodies};
+    result.sews = model.sews;
+    result.edge_length = typical_edge(result.model.cloth);
+    result.least_height = least_height(result.model.cloth);
+    return result;
+}
+
 double memory_limit(const Scene& scene)
 {
     return scene.solver.memory_limit > 0 ? scene.solver.memory_limit : 0.9 * double(physical_memory_bytes());

@@ -20,6 +20,9 @@ struct SceneModel {
 /// @throws InputError for any fault of a pattern, mesh, measure or resolution
 SceneModel build_scene_model(const Scene& scene);
 
+/// Returns the same scene with its cloth as level `level` of model.coarser has it, and what is coarser than that.
+SceneModel coarser_model(const SceneModel& model, std::size_t level);
+
 /// Returns the memory that a run of the scene may take: solver.memory_limit, or most of the machine's [bytes].
 double memory_limit(const Scene& scene);
 

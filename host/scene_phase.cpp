@@ -14,6 +14,17 @@ PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const Ph
     return options;
 }
 
+SewingOptions sewing_options(const Scene& scene, const RunPlan& plan)
+{
+    SewingOptions options;
+    options.step = scene.solver.step;
+    options.closed = scene.seams.closed;
+    options.energy_tolerance = scene.solver.energy_tolerance;
+    options.max_time = scene.seams.max_time;
+    options.first_stiffness = plan.phases.front().params.seam.stiffness;
+    return options;
+}
+
 std::string integrator_of(const Scene& scene)
 {
     if (scene.solver.integrator != "automatic") return scene.solver.integrator;

@@ -1,10 +1,14 @@
 #pragma once
 #include "host/solver/plan.hpp"
+#include "host/solver/sewing.hpp"
 
 namespace selvage {
 
 /// How a scene asks for one of its phases to be solved.
 PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const PhasePlan& plan);
+
+/// How a scene asks for its garment to be sewn.
+SewingOptions sewing_options(const Scene& scene, const RunPlan& plan);
 
 /// The integrator that moves the cloth while it drapes: solver.integrator, or what `bench work-precision` finds best:
 /// bdf2 for motions; on the way to rest static where the way does not matter (no bodies and so no friction, no

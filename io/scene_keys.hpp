@@ -172,7 +172,7 @@
 #define OUTPUT_KEYS(KEY, WORD, VEC3)                                                                             \
     WORD(precision, "8um", "lossless|8um|60um", "grid to which written positions are rounded")                   \
     KEY(bool, frames, true, "1", 0, 1, "write every frame; false: only the last one")                            \
-    KEY(bool, sewing, true, "1", 0, 1, "write the sewing phase to sewing.h5")                                    \
+    KEY(bool, sewing, true, "1", 0, 1, "write sewing.h5; not where a coarser mesh is sewn (solver.progressive)") \
     KEY(bool, picture, true, "1", 0, 1, "render preview.png")                                                    \
     KEY(int, picture_width, 1600, "1", 64, 16384, "width of preview.png in pixels")                              \
     KEY(int, picture_samples, 4, "1", 1, 64, "rays per pixel and side")                                          \

@@ -109,17 +109,4 @@ void Phase::move_to(double time)
     pins_.move_to(state_, time);
 }
 
-void place_particles(Phase& phase, const std::vector<Vec3>& positions)
-{
-    State& state = phase.state();
-    const int vs = state.size.vertex_stride;
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-        const int particle = phase.topology().particle_of[v];
-        for (int c = 0; c < 3; ++c) {
-            state.pos[std::size_t(c) * vs + particle] = positions[v][c];
-            state.vel[std::size_t(c) * vs + particle] = 0;
-        }
-    }
-}
-
 }  // namespace selvage

@@ -80,7 +80,4 @@ private:
     std::unique_ptr<Newton> newton_;
 };
 
-/// Puts the particles of a phase without seams where its cloth vertices are to be, at rest. @param positions  [m]
-void place_particles(Phase& phase, const std::vector<Vec3>& positions);
-
 }  // namespace selvage
