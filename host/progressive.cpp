@@ -16,6 +16,7 @@ namespace {
 
 constexpr double coarsest_edge = 0.025;   // [m], of garments: longer ones do not lie around arms as the finer ones will
 
+constexpr double most_tangled = 0.01;        // intersections per triangle with which a carried garment may start
 constexpr std::size_t worth_sewing_first = 2;   // levels below a garment: with one, its own drape costs as much as it saves
 
 // What hangs freely is near its rest in the shape that was carried over: the static energy is tried before any motion.
@@ -161,7 +162,9 @@ CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, cons
             if (stage.phase->cloth_contact())
                 report.intersections = intersections_of(finer, model.model.bodies, start.positions);
         }
-        report.used = report.used && report.intersections == 0;
+        // Garments can be untangled.
+        const double most = model.sews ? most_tangled * double(finer.faces.size()) : 0;
+        report.used = report.used && report.intersections <= most;
         if (!report.used) start.positions.clear();
         progress = report.used ? after_carrying(progress.time, !model.model.bodies.empty()) : DrapeProgress{.time = progress.time};
         report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
