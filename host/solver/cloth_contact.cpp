@@ -17,6 +17,8 @@ constexpr double scarce = 1e-6;          // part of the gap: pairs as near as th
 constexpr double held_scarce = 1e-4;     // the same for moves of bodies and held vertices
 constexpr double nearly_all = 0.9;       // such a small part leaves this much
 constexpr double slack_of_edge = 0.1;   // slack of the tree's boxes, of an edge length
+constexpr float jammed = 0.05f;           // part of the way of bodies and pins: with less they go on without what follows them
+constexpr float most_ahead = 0.25f;      // the part that they then go, so that the cloth can make way
 constexpr double body_part = 0.25;       // of the gap: where edges and corners of bodies press; before, vertices do
 constexpr int rounds = 4;                // of holding vertices back before the whole move is scaled
 
@@ -437,8 +439,11 @@ bool ClothContact::advance_held(State& state, const Follow& follow)
     cover(state, way);
     keep_ = held_keep;
     nearest_ = held_scarce * gap_;
-    let_followers_wait(state, way, move);
-    const float part = scale_all(way);
+    float part = scale_all(way);
+    if (part < jammed) {
+        let_followers_wait(state, way, move);
+        part = std::min(scale_all(way), most_ahead);
+    }
     keep_ = keep;
     nearest_ = scarce * gap_;
     time_ = part == 1 ? goal_time_ : time_ + part * (goal_time_ - time_);
