@@ -159,8 +159,10 @@ PhaseEnd DrapeRun::run_coarse()
     progress_.phase = "drape";
     if (!start.positions.empty()) {
         start_phase("drape", start.positions, {});
+        if (scene_.output.frames && model_.sews) recorder_->write_frame(*phase_, {}, elapsed(), true);
         save();
     } else if (model_.sews) {
+        progress_.draping = {};
         recorder_->close_phase();
         start_afresh("sew");
     }

@@ -65,6 +65,20 @@ class Progressive(unittest.TestCase):
                 reasons = {part["name"]: part["reason"] for part in json.loads(plan.stdout)["skipped"]}
                 self.assertIn(word, reasons["coarse_start"])
 
+    def test_a_garment_of_a_fine_mesh_is_sewn_on_a_coarse_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = subprocess.run([PROGRAM, "drape", "builtin:vest", "-o", folder, "--quiet", "--set",
+                                     "garment.resolution=0.0062", "--set", "output.picture=false"],
+                                    capture_output=True, text=True, timeout=300)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            own = summary(folder)
+            self.assertEqual([stage["used"] for stage in own["coarse_start"]], [True, True])
+            self.assertNotIn("sew", own["phases"])
+            self.assertFalse(os.path.exists(os.path.join(folder, "sewing.h5")))
+            self.assertEqual((own["self"]["intersections"], own["body"]["intersections"]), (0, 0))
+            with h5py.File(os.path.join(folder, "run.h5"), "r") as file:
+                self.assertGreaterEqual(len(file["selvage/time"]), 2)
+
 
 if __name__ == "__main__":
     unittest.main()
