@@ -17,7 +17,7 @@ constexpr double scarce = 1e-6;          // part of the gap: pairs as near as th
 constexpr double held_scarce = 1e-4;     // the same for moves of bodies and held vertices
 constexpr double nearly_all = 0.9;       // such a small part leaves this much
 constexpr double slack_of_edge = 0.1;   // slack of the tree's boxes, of an edge length
-constexpr float jammed = 0.05f;           // part of the way of bodies and pins: with less they go on without what follows them
+constexpr float jammed = 0.05f;           // part of the way of pins: with less they go on without what follows them
 constexpr float most_ahead = 0.25f;      // the part that they then go, so that the cloth can make way
 constexpr double body_part = 0.25;       // of the gap: where edges and corners of bodies press; before, vertices do
 constexpr int rounds = 4;                // of holding vertices back before the whole move is scaled
@@ -397,14 +397,11 @@ void ClothContact::ride(const State& state, const Way& way, std::vector<real>& m
     });
 }
 
-// Cloth that only goes along need not come as far as what leads it: who would hit something stays behind, so that a jam in
-// one place does not stop pins and bodies in another. What they themselves would hit is left to the caller.
+// Cloth that only goes along need not come as far as the pins that lead it: who would hit something stays behind, so that
+// a jam in one place does not stop pins in another. What these themselves would hit is left to the caller.
 void ClothContact::let_followers_wait(const State& state, const Way& way, std::vector<real>& move)
 {
-    const auto leads = [&](int corner) {
-        return corner >= 0 ? state.inv_mass[corner] == 0
-                           : way.body_move && !(*way.body_move)[-1 - corner].isZero(0);
-    };
+    const auto leads = [&](int corner) { return corner >= 0 && state.inv_mass[corner] == 0; };
     for (int round = 0; round < rounds; ++round) {
         std::vector<float> part = free_parts(way);
         const std::vector<PairCandidate>& candidates = tree_.candidates();
@@ -440,7 +437,7 @@ bool ClothContact::advance_held(State& state, const Follow& follow)
     keep_ = held_keep;
     nearest_ = held_scarce * gap_;
     float part = scale_all(way);
-    if (part < jammed) {
+    if (part < jammed && !way.body_move) {   // what a body presses on goes ahead of it, or is run through
         let_followers_wait(state, way, move);
         part = std::min(scale_all(way), most_ahead);
     }
