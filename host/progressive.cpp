@@ -44,17 +44,16 @@ struct Stage {
 
     void start(const PhasePlan& with, const std::vector<Vec3>& positions, Profile& profile)
     {
-        const std::vector<Vec3> from = positions;   // they may be those of the phase that ends
         phase.reset();
         phase = std::make_unique<Phase>(model.model, phase_options(scene, model, with), query ? &*query : nullptr, profile,
-                                        from, std::vector<Vec3>{});
+                                        positions, std::vector<Vec3>{});
     }
 };
 
 // Sews a garment at this stage and presses its seams.
 PhaseEnd sew_stage(Stage& stage, Profile& profile, const AfterStep& after_step)
 {
-    SewingOptions options = sewing_options(stage.scene, stage.plan);
+    const SewingOptions options = sewing_options(stage.scene, stage.plan);
     SewingProgress sewing;
     stage.start(stage.plan.phases.front(), stage.model.model.cloth.positions, profile);
     const PhaseEnd end = sew(*stage.phase, options, sewing, after_step);

@@ -19,7 +19,7 @@ struct CoarseStage {
     double residual = std::numeric_limits<double>::quiet_NaN();   ///< Relative force residual at its end [1]; NaN: it diverged.
     double wall_seconds = 0;
     int intersections = 0;    ///< Of the shape that was carried over from it, with itself and with bodies.
-    bool used = true;         ///< False: it diverged, or the finer mesh in its shape intersects something.
+    bool used = true;         ///< False: it diverged, or the finer mesh in its shape intersects too much.
 };
 
 struct CoarseStart {
@@ -31,7 +31,7 @@ struct CoarseStart {
 /// Drapes the coarser cloths of a scene, each from the shape of the one before, and carries the last shape over to the
 /// scene's own cloth. A garment is sewn at the coarsest. Most of the way is gone there, where a step costs next to nothing.
 /// Where cloth must not pass through itself or a body, a carried shape that does is dropped, as is that of a stage that
-/// diverged: the finer cloth then starts as the scene says.
+/// diverged: the finer cloth then starts as the scene says. A garment may start with a few intersections: it is untangled.
 /// Source: Zhang and others 2022, progressive cloth quasistatics.
 /// @param options   of the run itself; its integrator is not used
 /// @param progress  its time goes on from stage to stage

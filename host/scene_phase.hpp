@@ -11,7 +11,7 @@ PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const Ph
 SewingOptions sewing_options(const Scene& scene, const RunPlan& plan);
 
 /// The integrator that moves the cloth while it drapes: solver.integrator, or what `bench work-precision` finds best:
-/// bdf2 for motions; on the way to rest static where the way does not matter (no bodies and so no friction, no
+/// bdf2 for motions without bodies, implicit_euler with them; on the way to rest static where the way does not matter (no bodies and so no friction, no
 /// hysteresis), implicit_euler elsewhere.
 std::string integrator_of(const Scene& scene);
 
