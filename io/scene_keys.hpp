@@ -103,7 +103,7 @@
          "how time is advanced while cloth drapes; static: straight to the shape at rest; the explicit ones "   \
          "(from symplectic_euler to rk4) need short steps and gain energy in contact with bodies")               \
     WORD(until, "equilibrium", "", "\"equilibrium\", or the simulated seconds to run")                           \
-    KEY(double, step, 0.02, "s", 1e-6, 1, "time step; it shrinks by itself where a step fails")                  \
+    KEY(double, step, 0.02, "s", 1e-6, 1, "time step, twice that towards rest; shrinks where a step fails")      \
     WORD(unstable_step, "shrink", "shrink|refuse",                                                               \
          "what happens to a step above an explicit integrator's stability limit: divided, or an error")          \
     KEY(bool, adaptive, false, "1", 0, 1, "steps, of at most solver.step, follow the integrator's estimate of its error") \
@@ -175,7 +175,7 @@
     KEY(bool, sewing, true, "1", 0, 1, "write sewing.h5; not where a coarser mesh is sewn (solver.progressive)") \
     KEY(bool, picture, true, "1", 0, 1, "render preview.png")                                                    \
     KEY(int, picture_width, 1600, "1", 64, 16384, "width of preview.png in pixels")                              \
-    KEY(int, picture_samples, 4, "1", 1, 64, "rays per pixel and side")                                          \
+    KEY(int, picture_samples, 3, "1", 1, 64, "rays per pixel and side")                                          \
     KEY(double, checkpoint_interval, 5, "s", 0, 1e6, "wall time between checkpoints")                            \
     KEY(bool, keep_checkpoint, false, "1", 0, 1, "keep the checkpoint at a normal end")
 

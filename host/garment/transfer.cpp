@@ -10,6 +10,10 @@
 namespace selvage {
 namespace {
 
+// Rounding leaves weights of 1e-17 where a vertex lies on an edge. Products of such weights widen coarse matrices, and in
+// single precision they are subnormal numbers, with which processors are slow.
+constexpr double least_weight = 1e-7;
+
 struct Row {
     std::array<int, 3> column{-1, -1, -1};  // -1: unused
     std::array<double, 3> weight{0, 0, 0};
@@ -184,10 +188,12 @@ Transfer make_transfer(const Cloth& coarse, const Cloth& fine)
     Transfer transfer;
     transfer.offset.push_back(0);
     for (const Row& row : rows) {
+        double sum = 0;
+        for (const double weight : row.weight) sum += weight > least_weight ? weight : 0;
         for (int i = 0; i < 3; ++i) {
-            if (row.weight[i] <= 0) continue;
+            if (!(row.weight[i] > least_weight)) continue;
             transfer.column.push_back(row.column[i]);
-            transfer.weight.push_back(row.weight[i]);
+            transfer.weight.push_back(row.weight[i] / sum);
         }
         transfer.offset.push_back(int(transfer.column.size()));
     }

@@ -25,7 +25,7 @@ enum class PictureViews {
 
 struct PictureOptions {
     int width = 1600;               ///< Of the whole picture [pixels]; its height follows from the subject.
-    int samples_per_axis = 4;       ///< Square root of the camera rays per pixel.
+    int samples_per_axis = 3;       ///< Square root of the camera rays per pixel.
     bool ground = true;             ///< Lets the subject cast a shadow on a ground below it.
     PictureViews views = PictureViews::automatic;
 };

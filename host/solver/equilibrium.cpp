@@ -10,6 +10,7 @@ constexpr int relax_chunk = 5;      // static iterations between two looks at in
 constexpr int relax_chunks = 12;
 constexpr double first_load = 0.05;   // part of the weight at the first of several load steps
 constexpr int steps_between = 8;    // motion after a static attempt that did not reach the tolerance
+constexpr double stride = 2;        // steps towards rest, of those of a motion: only where they lead counts
 
 // What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
 struct SavedShape {
@@ -52,8 +53,9 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
             return PhaseEnd::stopped;
         }
         if (report.converged) return PhaseEnd::reached;
-        if (chunk + 1 == relax_chunks || report.stuck) progress.residual = report.residual;
-        if (report.stuck || (chunk > 3 && report.residual > 0.8 * best)) return PhaseEnd::time_limit;
+        const bool buckles = report.blind == report.iterations && report.iterations > 0;   // inertia has to lead it on
+        if (chunk + 1 == relax_chunks || report.stuck || buckles) progress.residual = report.residual;
+        if (report.stuck || buckles || (chunk > 3 && report.residual > 0.8 * best)) return PhaseEnd::time_limit;
         best = std::min(best, report.residual);
     }
     return PhaseEnd::time_limit;
@@ -86,14 +88,22 @@ StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
             progress.residual, control.stable_step(), control.shortest()};
 }
 
+// Whether a step may be left unsolved: what an iteration leaves over, a damped scheme of first order makes up for later.
+bool may_hurry(const Integrator& integrator, const EquilibriumOptions& options)
+{
+    return !integrator.info().is_explicit && integrator.info().order <= 1 && !options.step.adaptive;
+}
+
 // Rest under the present weight.
 PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOptions& options, DrapeProgress& progress,
                       const AfterStep& after_step)
 {
-    StepControl control(phase, integrator, starting_at(progress.time, options.step));
+    const bool hurries = may_hurry(integrator, options);
+    StepOptions steps = starting_at(progress.time, options.step);
+    if (hurries) steps.longest *= stride;
+    StepControl control(phase, integrator, steps);
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
-    newton.max_iterations = std::min(options.newton_iterations, 3);
     newton.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
     for (;;) {
         if (nearly_balanced(phase, options, progress)) {
@@ -104,7 +114,9 @@ PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOpt
             progress.hold = steps_between;
         }
         if (progress.time >= options.max_time) return PhaseEnd::time_limit;
-        progress.time += control.advance(options.step.longest, newton, false);
+        const bool follows = progress.time < phase.motion_end();   // bodies or pins, whose way counts
+        newton.max_iterations = std::min(options.newton_iterations, hurries && !follows ? 1 : 3);
+        progress.time += control.advance(follows ? options.step.longest : steps.longest, newton, false);
         progress.dt = control.dt();
         progress.residual = phase.newton().static_residual();
         --progress.hold;
