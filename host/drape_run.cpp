@@ -158,7 +158,8 @@ PhaseEnd DrapeRun::run_coarse()
     coarse_stages_ = start.stages;
     progress_.phase = "drape";
     if (!start.positions.empty()) {
-        start_phase("drape", start.positions, {});
+        phase_->start_over(model_.model, start.positions);
+        integrator_ = make_integrator(integrator_of(scene_), *phase_);
         if (scene_.output.frames && model_.sews) recorder_->write_frame(*phase_, {}, elapsed(), true);
         save();
     } else if (model_.sews) {

@@ -112,23 +112,57 @@ void ClothTree::refit_boxes(bool bodies_move, bool bodies_too)
         }
 }
 
+// Of one face at both ends of a move. @param corners  places of its corners [m]
+void ClothTree::add_gradient(Gradients& range, int face, const std::array<Vec3, 3>& corners) const
+{
+    const std::array<double, 4>& w = rest_inverse_[face];
+    const Vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+    const Vec3 weft = w[0] * e1 + w[1] * e2, warp = w[2] * e1 + w[3] * e2;
+    Gradients one;
+    for (int c = 0; c < 3; ++c) {
+        one.low[c] = one.high[c] = float(weft[c]);
+        one.low[3 + c] = one.high[3 + c] = float(warp[c]);
+    }
+    range.add(one);
+}
+
+// Whether the whole surface is one piece that is too flat to meet itself. Nothing but its gradients is looked at.
+bool ClothTree::lies_flat(const double* from, const double* move, int stride) const
+{
+    if (surface_.patches.size() != 1 || nodes_.empty() || !nodes_[0].may_be_flat) return false;
+    Gradients none;
+    none.clear();
+    const Gradients range = tbb::parallel_reduce(
+        Range(0, int(surface_.faces.size()), 4096), none,
+        [&](const Range& part, Gradients sum) {
+            for (int f = part.begin(); f < part.end(); ++f) {
+                std::array<Vec3, 3> at;
+                for (int end = 0; end < (move ? 2 : 1); ++end) {
+                    for (int k = 0; k < 3; ++k)
+                        for (int c = 0; c < 3; ++c) {
+                            const int i = c * stride + surface_.faces[f][k];
+                            at[k][c] = from[i] + (end == 1 ? move[i] : 0);
+                        }
+                    add_gradient(sum, f, at);
+                }
+            }
+            return sum;
+        },
+        [](Gradients a, const Gradients& b) {
+            a.add(b);
+            return a;
+        });
+    return range.stretch_bound() > flat_to_skip;
+}
+
 void ClothTree::refit_gradients()
 {
     parallel(int(surface_.faces.size()), [&](int f) {
         const Face& face = surface_.faces[f];
         if (face[0] < 0) return;
-        const std::array<double, 4>& w = rest_inverse_[f];
         face_gradients_[f].clear();
-        for (const std::vector<Vec3>* x : {&start_, &end_}) {
-            const Vec3 e1 = (*x)[face[1]] - (*x)[face[0]], e2 = (*x)[face[2]] - (*x)[face[0]];
-            const Vec3 weft = w[0] * e1 + w[1] * e2, warp = w[2] * e1 + w[3] * e2;
-            Gradients one;
-            for (int c = 0; c < 3; ++c) {
-                one.low[c] = one.high[c] = float(weft[c]);
-                one.low[3 + c] = one.high[3 + c] = float(warp[c]);
-            }
-            face_gradients_[f].add(one);
-        }
+        for (const std::vector<Vec3>* x : {&start_, &end_})
+            add_gradient(face_gradients_[f], f, {(*x)[face[0]], (*x)[face[1]], (*x)[face[2]]});
     });
     parallel(int(nodes_.size()), [&](int n) {
         node_gradients_[n].clear();
@@ -209,6 +243,13 @@ bool ClothTree::still_complete(const TreeBodies& bodies, double reach, double bo
 bool ClothTree::cover(const double* from, const double* move, int stride, const TreeBodies& bodies, double reach,
                       double body_reach)
 {
+    if (lies_flat(from, move, stride)) {
+        const bool changed = !candidates_.empty();
+        candidates_.clear();
+        valid_ = false;
+        ++counts_.flat_skipped;
+        return changed;
+    }
     set_frame(from, move, stride, bodies);
     refit_gradients();
     if (still_complete(bodies, reach, body_reach) &&

@@ -125,6 +125,8 @@ private:
     void set_frame(const double* from, const double* move, int stride, const TreeBodies& bodies);
     bool still_complete(const TreeBodies& bodies, double reach, double body_reach) const;
     double part_gone(const std::vector<Vec3>& at) const;
+    void add_gradient(Gradients& range, int face, const std::array<Vec3, 3>& corners) const;
+    bool lies_flat(const double* from, const double* move, int stride) const;
     void refit_gradients();
     void refit_boxes(bool bodies_move, bool bodies_too);
     void search();

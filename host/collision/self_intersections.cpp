@@ -1,6 +1,7 @@
 #include "host/collision/self_intersections.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -32,6 +33,27 @@ bool far_edge_meets(const TriangleTree& mesh, int f, int g)
     return false;
 }
 
+// A plane across the line between two triangles that has each on its side, and through the corner that they may share,
+// spares the exact tests: flat cloth has many neighbours, and those in one plane are the dearest.
+// @param shared  a corner of both, or -1
+bool plane_between(const TriangleTree& a, int f, const TriangleTree& b, int g, int shared)
+{
+    const Triangle p = a.triangle(f), q = b.triangle(g);
+    const Vec3 middle = (q[0] + q[1] + q[2]) / 3, across = (p[0] + p[1] + p[2]) / 3 - middle;
+    double least = std::numeric_limits<double>::infinity(), most = -least, size = 0;
+    for (int k = 0; k < 3; ++k) {
+        size = std::max({size, p[k].cwiseAbs().maxCoeff(), q[k].cwiseAbs().maxCoeff()});
+        if (a.face(f)[k] != shared) least = std::min(least, across.dot(p[k] - middle));
+        if (b.face(g)[k] != shared) most = std::max(most, across.dot(q[k] - middle));
+    }
+    const double margin = 1e-13 * size * across.norm();   // hundreds of times the rounding of these sums
+    if (shared < 0) return least > most + margin;
+    const double at = across.dot(a.vertex(shared) - middle);
+    return least > at + margin && most < at - margin;
+}
+
+int shared_corner(const Face& f, const Face& g) { return *std::find_first_of(f.begin(), f.end(), g.begin(), g.end()); }
+
 }  // namespace
 
 std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces)
@@ -41,8 +63,10 @@ std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertic
     return mesh.own_pairs([&](int a, int b) {
         if (!has_area[a] || !has_area[b]) return false;
         const int shared = shared_corners(mesh.face(a), mesh.face(b));
+        if (shared > 1) return false;
+        if (plane_between(mesh, a, mesh, b, shared == 1 ? shared_corner(mesh.face(a), mesh.face(b)) : -1)) return false;
         if (shared == 0) return triangles_meet(mesh.triangle(a), mesh.triangle(b));
-        return shared == 1 && (far_edge_meets(mesh, a, b) || far_edge_meets(mesh, b, a));
+        return far_edge_meets(mesh, a, b) || far_edge_meets(mesh, b, a);
     });
 }
 
@@ -52,7 +76,8 @@ std::vector<IntersectingPair> mutual_intersections(const std::vector<Vec3>& vert
     const TriangleTree mine(vertices, faces), theirs(other.vertices, other.faces);
     const std::vector<char> mine_has_area = with_area(mine, faces.size()), theirs_has_area = with_area(theirs, other.faces.size());
     return mine.pairs_with(theirs, [&](int a, int b) {
-        return mine_has_area[a] && theirs_has_area[b] && triangles_meet(mine.triangle(a), theirs.triangle(b));
+        return mine_has_area[a] && theirs_has_area[b] && !plane_between(mine, a, theirs, b, -1) &&
+               triangles_meet(mine.triangle(a), theirs.triangle(b));
     });
 }
 

@@ -151,6 +151,8 @@ void ClothContact::look_at_all(const State&, const Way& way, bool afresh)
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
     looks_.resize(candidates.size());
+    ++counts_.looks;
+    if (candidates.empty()) return;
     measure_ways(way);
     for_each_item(int(candidates.size()), [&, this](int k) {
         const PairCandidate& candidate = candidates[k];
@@ -169,7 +171,6 @@ void ClothContact::look_at_all(const State&, const Way& way, bool afresh)
         if (way.move) look.approach = rounded_up(pair_approach(moves(candidate, way), candidate.edges));
         look.near = look.distance - look.approach < gap_;
     });
-    ++counts_.looks;
 }
 
 void ClothContact::update(State& state)

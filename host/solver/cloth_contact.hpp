@@ -87,6 +87,7 @@ public:
     void set_faults(const std::vector<real>& faults);   ///< As `faults` gave them.
 
     double gap() const { return gap_; }
+    bool is_near_itself() const { return !tree_.candidates().empty(); }   ///< Or a body, on the last way that was cleared.
     const ClothContactCounts& counts() const { return counts_; }
     const TreeCounts& tree_counts() const { return tree_.counts(); }
     std::size_t bytes() const;

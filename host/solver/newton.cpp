@@ -170,18 +170,20 @@ void Newton::guess_step(const NewtonOptions& options, const std::vector<real>* e
         }
         place(longest_fraction(options));
     };
-    // Ways through cloth are dear to clear: one must do.
-    const std::vector<real>* flight = cloth_ && expected ? nullptr : &target_;
-    for (const std::vector<real>* candidate : {flight, expected}) {
+    const std::vector<real>* at = nullptr;
+    for (const std::vector<real>* candidate : {expected, static_cast<const std::vector<real>*>(&target_)}) {
         if (!candidate) continue;
+        // Ways through cloth are dear to clear: where there is any, one must do.
+        if (at && cloth_ && cloth_->is_near_itself()) break;
         go_to(*candidate);
+        at = candidate;
         const double there = objective();
         if (!(there < lowest)) continue;
         lowest = there;
         best = candidate;
     }
     if (best == &start_) place(0);
-    if (best == &target_ && expected) go_to(target_);
+    if (best != &start_ && best != at) go_to(*best);
 }
 
 double Newton::largest_move() const

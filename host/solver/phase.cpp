@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/solver/cloth_state.hpp"
+#include "host/solver/hysteresis.hpp"
 #include "host/solver/springs.hpp"
 
 namespace selvage {
@@ -58,9 +59,27 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
     // Where a rule stands for contact there is none while a step is solved.
     ContactField* felt = options.params.velocity_rule.gap > 0 ? nullptr : contact_.get();
     newton_ = std::make_unique<Newton>(state_, options_.params, *linear_, felt, cloth_contact_.get(), profile);
+    take_hold();
+}
+
+void Phase::start_over(const ClothModel& model, const std::vector<Vec3>& positions)
+{
+    place_particles(state_, topology_, model.cloth, model.fabrics, positions, {});
+    std::fill(state_.friction_anchor.begin(), state_.friction_anchor.end(), 0);
+    std::fill(state_.friction_limit.begin(), state_.friction_limit.end(), 0);
+    if (!state_.hinge_hysteresis.empty()) fill_hysteresis(state_, topology_, model.cloth, model.fabrics);
+    if (cloth_contact_) {
+        cloth_contact_->start_step();
+        cloth_contact_->memory().clear();
+    }
+    take_hold();
+}
+
+// Cloth that lies on a body from the start is held by friction in its first step already.
+void Phase::take_hold()
+{
     look_around();
     if (!contact_) return;
-    // Cloth that lies on a body from the start is held by friction in its first step already.
     newton_->list_pairs();
     settle_friction(state_, options_.params);
     newton_->terms().evaluate_forces(false);

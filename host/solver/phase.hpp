@@ -37,6 +37,10 @@ public:
     Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
           const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
 
+    /// Begins again at other positions, at rest, as if it had been made with them.
+    /// @param model  that it was made of   @param positions  per cloth vertex [m]
+    void start_over(const ClothModel& model, const std::vector<Vec3>& positions);
+
     State& state() { return state_; }
     const State& state() const { return state_; }
     const Topology& topology() const { return topology_; }
@@ -67,6 +71,8 @@ public:
     std::size_t bytes() const { return state_.bytes() + linear_->bytes(); }
 
 private:
+    void take_hold();
+
     PhaseOptions options_;
     Profile& profile_;
     std::vector<const Rule*> rules_;

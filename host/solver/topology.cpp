@@ -220,26 +220,13 @@ mesh_sizes topology_sizes(const Topology& topology, int material_count, int coup
     return size;
 }
 
-void fill_state(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
-                const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
+void place_particles(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
+                     const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
 {
-    const PanelFabrics table = panel_fabrics(cloth, fabrics);
-    fill_materials(state, fabrics);
-    fill_faces(state, topology, cloth, table);
-    fill_hinges(state, topology, cloth, table);
-    fill_springs(state, topology);
-    for (int s = 0; s < int(topology.stitches.size()) && !state.stitch_vertex.empty(); ++s)
-        for (int k = 0; k < 2; ++k)
-            state.stitch_vertex[k * state.size.stitch_stride + s] = topology.stitches[s][k];
-
     const int vs = state.size.vertex_stride, n = state.size.vertex_count;
-    fill_slots(topology.faces, n, vs, state.face_slots, state.face_slot);
-    fill_slots(topology.hinges, n, vs, state.hinge_slots, state.hinge_slot);
-    fill_slots(topology.stitches, n, vs, state.stitch_slots, state.stitch_slot);
-    std::vector<std::array<int, 2>> spring_ends;
-    for (const Spring& spring : topology.springs) spring_ends.push_back(spring.vertex);
-    fill_slots(spring_ends, n, vs, state.spring_slots, state.spring_slot);
-
+    const PanelFabrics table = panel_fabrics(cloth, fabrics);
+    std::fill(state.pos.begin(), state.pos.end(), 0);
+    std::fill(state.vel.begin(), state.vel.end(), 0);
     // Each cloth vertex carries its own share of its particle's mass.
     std::vector<double> share(positions.size());
     const std::vector<int> panel = panel_of_faces(cloth);
@@ -262,6 +249,28 @@ void fill_state(State& state, const Topology& topology, const Cloth& cloth, cons
             state.vel[c * vs + p] = 0;
         }
     }
+}
+
+void fill_state(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
+                const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
+{
+    const PanelFabrics table = panel_fabrics(cloth, fabrics);
+    fill_materials(state, fabrics);
+    fill_faces(state, topology, cloth, table);
+    fill_hinges(state, topology, cloth, table);
+    fill_springs(state, topology);
+    for (int s = 0; s < int(topology.stitches.size()) && !state.stitch_vertex.empty(); ++s)
+        for (int k = 0; k < 2; ++k)
+            state.stitch_vertex[k * state.size.stitch_stride + s] = topology.stitches[s][k];
+
+    const int vs = state.size.vertex_stride, n = state.size.vertex_count;
+    fill_slots(topology.faces, n, vs, state.face_slots, state.face_slot);
+    fill_slots(topology.hinges, n, vs, state.hinge_slots, state.hinge_slot);
+    fill_slots(topology.stitches, n, vs, state.stitch_slots, state.stitch_slot);
+    std::vector<std::array<int, 2>> spring_ends;
+    for (const Spring& spring : topology.springs) spring_ends.push_back(spring.vertex);
+    fill_slots(spring_ends, n, vs, state.spring_slots, state.spring_slot);
+    place_particles(state, topology, cloth, fabrics, positions, velocities);
 }
 
 std::vector<Vec3> cloth_vectors(const Topology& topology, const mesh_sizes& size, const std::vector<real>& field)

@@ -35,11 +35,15 @@ mesh_sizes topology_sizes(const Topology& topology, int material_count, int coup
 /// Fabrics in the order of the state's material table.
 using FabricTable = std::map<std::string, Fabric>;
 
-/// Fills the rest data of an allocated state: masses, faces, hinges, stitches, materials and gather lists.
+/// Puts the particles of a filled state where the cloth is; pinned ones are at rest.
 /// Positions are set to the mass-weighted mean of the cloth vertices of each particle, velocities likewise, so that
 /// joining keeps the centre of mass and the momentum (B12).
 /// @param positions   per cloth vertex [m]
 /// @param velocities  per cloth vertex [m/s]; empty: at rest
+void place_particles(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
+                     const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
+
+/// Fills the rest data of an allocated state: masses, faces, hinges, stitches, materials and gather lists; then as above.
 void fill_state(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
                 const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
 
