@@ -9,6 +9,7 @@
 #include "host/cloth_picture.hpp"
 #include "host/collision/self_intersections.hpp"
 #include "host/measure.hpp"
+#include "host/scene_phase.hpp"
 #include "host/solver/elastic_energy.hpp"
 #include "io/errors.hpp"
 #include "io/memory.hpp"
@@ -207,7 +208,7 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
     s.status = status;
     s.scene = scene_.name;
     s.version = version;
-    s.precision = scene_.solver.precision;
+    s.precision = solve_precision(scene_, model_.model.cloth);
     s.message = message;
     s.threads = int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     s.vertices = phase.state().size.vertex_count;

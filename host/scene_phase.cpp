@@ -1,13 +1,21 @@
 #include "host/scene_phase.hpp"
 
 namespace selvage {
+namespace {
+
+// Vertices. The ratio of the stiffest to the softest motion grows with the square of the resolution: where it nears the
+// 16 million steps of single precision, directions of descent get lost in rounding.
+constexpr std::size_t most_in_float = 500000;
+
+}  // namespace
+
 
 PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const PhasePlan& plan)
 {
     PhaseOptions options;
     options.params = plan.params;
     options.joined = plan.joined;
-    options.float_solves = scene.solver.precision == "float";
+    options.float_solves = solve_precision(scene, model.model.cloth) == "float";
     options.linear.max_iterations = scene.solver.linear_iterations;
     const bool levels = !model.model.coarser.empty() && scene.solver.preconditioner != "block_jacobi";
     options.linear.preconditioner = levels ? Preconditioner::multigrid : Preconditioner::block_jacobi;
@@ -23,6 +31,12 @@ SewingOptions sewing_options(const Scene& scene, const RunPlan& plan)
     options.max_time = scene.seams.max_time;
     options.first_stiffness = plan.phases.front().params.seam.stiffness;
     return options;
+}
+
+std::string solve_precision(const Scene& scene, const Cloth& cloth)
+{
+    if (scene.solver.precision != "automatic") return scene.solver.precision;
+    return cloth.positions.size() > most_in_float ? "double" : "float";
 }
 
 std::string integrator_of(const Scene& scene)

@@ -117,7 +117,8 @@
     KEY(int, newton_iterations, 40, "1", 1, 1000, "Newton iterations per step before it is retried smaller")     \
     KEY(int, linear_iterations, 600, "1", 1, 100000, "conjugate-gradient iterations per Newton iteration")       \
     WORD(preconditioner, "auto", "auto|block_jacobi|multigrid", "preconditioner of the conjugate gradients; auto: multigrid where levels exist") \
-    WORD(precision, "float", "float|double", "precision of the linear solves; state and forces are always double") \
+    WORD(precision, "automatic", "automatic|float|double",                                                      \
+         "of the linear solves; automatic: float up to 500 000 vertices. State and forces are always double")     \
     KEY(int, threads, 0, "1", 0, 1024, "worker threads; 0: all cores")                                           \
     VEC3(gravity, 0, 0, -9.81, "m/s^2", "acceleration")                                                          \
     KEY(double, frame_rate, 30, "1/s", 0.01, 10000, "frames written per simulated second")                       \

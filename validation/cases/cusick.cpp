@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "host/scene_model.hpp"
+#include "host/scene_phase.hpp"
 #include "host/solver/equilibrium.hpp"
 #include "host/solver/plan.hpp"
 #include "validation/cases/cases.hpp"
@@ -66,7 +67,7 @@ std::vector<Vec3> drape_to_rest(const Scene& scene, const SceneModel& model, int
     const PhasePlan plan = make_plan(scene, model).phases.back();
     PhaseOptions options;
     options.params = plan.params;
-    options.float_solves = scene.solver.precision == "float";
+    options.float_solves = solve_precision(scene, model.model.cloth) == "float";
     options.linear.max_iterations = scene.solver.linear_iterations;
     if (!model.model.coarser.empty()) options.linear.preconditioner = Preconditioner::multigrid;
     BodyQuery query(model.model.bodies, cloth_reach(model.model.cloth));
