@@ -70,15 +70,26 @@ std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertic
     });
 }
 
+IntersectionTarget::IntersectionTarget(TriangleMesh mesh)
+    : mesh_(std::move(mesh)), tree_(mesh_.vertices, mesh_.faces), has_area_(with_area(tree_, mesh_.faces.size()))
+{
+}
+
+std::vector<IntersectingPair> IntersectionTarget::intersections(const std::vector<Vec3>& vertices,
+                                                                const std::vector<Face>& faces) const
+{
+    const TriangleTree mine(vertices, faces);
+    const std::vector<char> mine_has_area = with_area(mine, faces.size());
+    return mine.pairs_with(tree_, [&](int a, int b) {
+        return mine_has_area[a] && has_area_[b] && !plane_between(mine, a, tree_, b, -1) &&
+               triangles_meet(mine.triangle(a), tree_.triangle(b));
+    });
+}
+
 std::vector<IntersectingPair> mutual_intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces,
                                                    const TriangleMesh& other)
 {
-    const TriangleTree mine(vertices, faces), theirs(other.vertices, other.faces);
-    const std::vector<char> mine_has_area = with_area(mine, faces.size()), theirs_has_area = with_area(theirs, other.faces.size());
-    return mine.pairs_with(theirs, [&](int a, int b) {
-        return mine_has_area[a] && theirs_has_area[b] && !plane_between(mine, a, theirs, b, -1) &&
-               triangles_meet(mine.triangle(a), theirs.triangle(b));
-    });
+    return IntersectionTarget(other).intersections(vertices, faces);
 }
 
 }  // namespace selvage

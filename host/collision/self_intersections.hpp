@@ -15,6 +15,22 @@ using IntersectingPair = TrianglePair;
 /// @returns pairs with the smaller index first, sorted
 std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces);
 
+/// A mesh that others are tested against, again and again.
+class IntersectionTarget {
+public:
+    explicit IntersectionTarget(TriangleMesh mesh);
+    IntersectionTarget(const IntersectionTarget&) = delete;   // its tree refers to its mesh
+    const TriangleMesh& mesh() const { return mesh_; }
+
+    /// As mutual_intersections.
+    std::vector<IntersectingPair> intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces) const;
+
+private:
+    TriangleMesh mesh_;
+    TriangleTree tree_;            // of mesh_
+    std::vector<char> has_area_;   // per face
+};
+
 /// Finds every pair of a triangle of one mesh and a triangle of another that intersect, by exact predicates.
 std::vector<IntersectingPair> mutual_intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces,
                                                    const TriangleMesh& other);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/collision/self_intersections.hpp"
 #include "host/solver/fabric_contact.hpp"
 #include "host/solver/launch.hpp"
 
@@ -318,17 +317,26 @@ void ClothContact::find_tangles(const State& state)
         mark(b);
         ++counts_.tangles;
     }
+    if (targets_version_ != body_version_) renew_targets();
+    for (const std::unique_ptr<IntersectionTarget>& target : targets_)
+        for (const auto& [a, b] : target->intersections(x, faces_)) {
+            mark(a);
+            for (int v : faces_[a]) pierced_[v] = 1;
+            ++counts_.tangles;
+        }
+}
+
+void ClothContact::renew_targets()
+{
+    targets_.clear();
     std::size_t first = 0;
     for (const Body& body : bodies_) {
         TriangleMesh mesh = body.mesh;
         std::copy_n(body_now_.begin() + std::ptrdiff_t(first), mesh.vertices.size(), mesh.vertices.begin());
         first += mesh.vertices.size();
-        for (const auto& [a, b] : mutual_intersections(x, faces_, mesh)) {
-            mark(a);
-            for (int v : faces_[a]) pierced_[v] = 1;
-            ++counts_.tangles;
-        }
+        targets_.push_back(std::make_unique<IntersectionTarget>(std::move(mesh)));
     }
+    targets_version_ = body_version_;
 }
 
 void ClothContact::aim(const std::vector<std::pair<int, Vec3>>& pins, double time)

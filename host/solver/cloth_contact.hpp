@@ -1,12 +1,14 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "host/collision/body_shapes.hpp"
 #include "host/collision/ccd.hpp"
 #include "host/collision/cloth_tree.hpp"
+#include "host/collision/self_intersections.hpp"
 #include "host/solver/params.hpp"
 #include "host/solver/state.hpp"
 #include "host/solver/topology.hpp"
@@ -127,6 +129,7 @@ private:
     void remember(const State& state);
     double area_of(const PairCandidate& candidate, const Way& way) const;
     void find_tangles(const State& state);
+    void renew_targets();
     void find_inside(const State& state);
     void show_bodies(State& state) const;
     std::vector<Vec3> ways_of_bodies() const;
@@ -139,6 +142,8 @@ private:
     std::vector<Vec3> body_now_, body_goal_;       // corners of all of them [m]
     std::vector<std::pair<int, Vec3>> pins_;       // where held particles are to be
     int body_version_ = 0;                         // changes with body_now_
+    std::vector<std::unique_ptr<IntersectionTarget>> targets_;   // the bodies, where tangles are looked for
+    int targets_version_ = -1;                     // body_version_ that they are of
     Carry carry_;
     double time_ = 0, goal_time_ = 0;              // where bodies are and are to be [s]
     double keep_, nearest_;                        // part of a distance that a move leaves; where it gets scarce [m]
