@@ -106,8 +106,13 @@ bool DrapeRun::after_step(const StepEvent& event)
     if (shown) recorder_->write_frame(*phase_, event, elapsed(), false);
     // In the middle of a static attempt there is nothing to go on from: it is repeated from its start.
     if (event.dt > 0 && elapsed() - last_checkpoint_ >= scene_.output.checkpoint_interval) save();
+    return !must_stop();
+}
+
+bool DrapeRun::must_stop() const
+{
     const bool out_of_time = scene_.solver.max_wall > 0 && elapsed() - wall_before_ > scene_.solver.max_wall;
-    return !interrupt_requested() && !out_of_time;
+    return interrupt_requested() || out_of_time;
 }
 
 PhaseEnd DrapeRun::run_sewing()
@@ -146,6 +151,7 @@ EquilibriumOptions DrapeRun::draping_options()
     options.max_time = scene_.solver.max_time;
     options.newton_iterations = scene_.solver.newton_iterations;
     options.load_steps = scene_.solver.load_steps;
+    options.stop = [this] { return must_stop(); };
     return options;
 }
 

@@ -35,6 +35,7 @@ private:
     PhaseEnd run_coarse();
     PhaseEnd run_draping();
     bool after_step(const StepEvent& event);
+    bool must_stop() const;
     void note_stability(const StepEvent& event);
     double elapsed() const;
     RunOutcome conclude_at_rest();

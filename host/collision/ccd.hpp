@@ -44,15 +44,16 @@ inline double pair_approach(const PairCorners& move, bool edges)
 /// the bound of the approach holds for every part of the move.
 /// Source: additive continuous collision detection, Li and others 2021 (C-IPC), algorithm 1.
 /// @param distance  at the start [m], > least > 0    @param approach  pair_approach of the move [m]
+/// @param enough    1 is returned as soon as at least this part is found to be free
 inline double free_fraction(PairCorners x, const PairCorners& move, bool edges, double distance, double approach,
-                            double least)
+                            double least, double enough = 1)
 {
     const Vec3 mean = 0.25 * (move[0] + move[1] + move[2] + move[3]);
     const double close = 0.02 * (distance - least);   // of what there is to lose: who moves apart is not stopped
     double done = 0;
     for (int iteration = 0; iteration < 200; ++iteration) {
         const double step = (distance - least) / approach;
-        if (done + step >= 1) return 1;
+        if (done + step >= enough) return 1;
         done += step;
         for (int i = 0; i < 4; ++i) x[i] += step * (move[i] - mean);
         distance = pair_distance(x, edges);

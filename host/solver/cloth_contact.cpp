@@ -1,6 +1,7 @@
 #include "host/solver/cloth_contact.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "host/solver/fabric_contact.hpp"
@@ -212,29 +213,37 @@ bool ClothContact::is_clear_from(State& state, const std::vector<real>& from)
     return clear;
 }
 
-// How much of the move each candidate is free for.
+// How much of the move a candidate is free for. @param enough  1 is returned where at least this much is free
+float ClothContact::free_part(int k, const Way& way, float enough) const
+{
+    const Look& look = looks_[k];
+    if (!look.near) return 1;
+    const PairCandidate& candidate = tree_.candidates()[k];
+    const double least = least_distance(candidate, look);
+    if (look.approach < look.distance - least || may_pass(candidate)) return 1;
+    const double free = free_fraction(places(candidate, way), moves(candidate, way), candidate.edges, look.distance,
+                                      look.approach, least, enough);
+    return free < 1 ? rounded_down(free) : 1;
+}
+
 std::vector<float> ClothContact::free_parts(const Way& way) const
 {
-    const std::vector<PairCandidate>& candidates = tree_.candidates();
-    std::vector<float> part(candidates.size(), 1.0f);
-    for_each_item(int(candidates.size()), [&, this](int k) {
-        const Look& look = looks_[k];
-        if (!look.near) return;
-        const PairCandidate& candidate = candidates[k];
-        const double least = least_distance(candidate, look);
-        if (look.approach < look.distance - least || may_pass(candidate)) return;
-        const double free = free_fraction(places(candidate, way), moves(candidate, way), candidate.edges, look.distance,
-                                          look.approach, least);
-        if (free < 1) part[k] = rounded_down(free);
-    });
+    std::vector<float> part(tree_.candidates().size(), 1.0f);
+    for_each_item(int(part.size()), [&, this](int k) { part[k] = free_part(k, way, 1); });
     return part;
 }
 
-// The part of the whole move that nothing stands in the way of.
+// The part of the whole move that nothing stands in the way of. Who is free for as much as others leave is not looked at
+// any further.
 float ClothContact::scale_all(const Way& way) const
 {
-    const std::vector<float> part = free_parts(way);
-    return part.empty() ? 1.0f : *std::min_element(part.begin(), part.end());
+    std::atomic<float> least = 1;
+    for_each_item(int(tree_.candidates().size()), [&, this](int k) {
+        float so_far = least.load(std::memory_order_relaxed);
+        const float part = free_part(k, way, so_far);
+        while (part < so_far && !least.compare_exchange_weak(so_far, part)) {}
+    });
+    return least;
 }
 
 // One round: cuts the moves of those who would hit something. Returns whether there were any.

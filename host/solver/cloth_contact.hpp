@@ -119,6 +119,7 @@ private:
     void cover(const State& state, const Way& way);
     void measure_ways(const Way& way);
     void look_at_all(const State& state, const Way& way, bool afresh);
+    float free_part(int candidate, const Way& way, float enough) const;
     std::vector<float> free_parts(const Way& way) const;
     float scale_all(const Way& way) const;
     bool hold_back(std::vector<real>& move, const Way& way, const std::vector<float>& part) const;

@@ -44,11 +44,12 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
     newton.tolerance = options.tolerance;
     newton.linear_tolerance = 0.02;
     newton.full_stiffness = true;
+    newton.stop = &options.stop;
     const SavedShape start = shape_of(phase);
     double best = 1e300;
     for (int chunk = 0; chunk < relax_chunks; ++chunk) {
         const NewtonReport report = phase.newton().relax(newton);
-        if (!after_step({progress.time, 0, report.iterations, report.linear_iterations, report.residual})) {
+        if (report.broken_off || !after_step({progress.time, 0, report.iterations, report.linear_iterations, report.residual})) {
             restore(phase, start);
             return PhaseEnd::stopped;
         }
@@ -104,6 +105,7 @@ PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOpt
     StepControl control(phase, integrator, steps);
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
+    newton.stop = &options.stop;
     newton.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
     for (;;) {
         if (nearly_balanced(phase, options, progress)) {
@@ -117,6 +119,7 @@ PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOpt
         const bool follows = progress.time < phase.motion_end();   // bodies or pins, whose way counts
         newton.max_iterations = std::min(options.newton_iterations, hurries && !follows ? 1 : 3);
         progress.time += control.advance(follows ? options.step.longest : steps.longest, newton, false);
+        if (control.report().broken_off) return PhaseEnd::stopped;
         progress.dt = control.dt();
         progress.residual = phase.newton().static_residual();
         --progress.hold;
@@ -161,11 +164,13 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
     newton.still = 3e-2;
     newton.decrement = 1e-2;
     newton.linear_tolerance = 0.2;
+    newton.stop = &options.stop;
     newton.most_left = 0.12 * phase.edge_length();
     while (progress.time < until - 1e-9) {
         // Steps end on frame times, so that frames show computed states and not interpolated ones.
         const double frame_end = frame_interval * (std::floor(progress.time / frame_interval + 1e-6) + 1);
         progress.time += control.advance(std::min(frame_end, until) - progress.time, newton, true);
+        if (control.report().broken_off) return PhaseEnd::stopped;
         progress.dt = control.dt();
         StepEvent event = event_of(control, progress);
         event.residual = phase.newton().static_residual();

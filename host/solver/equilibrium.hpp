@@ -9,6 +9,7 @@ struct EquilibriumOptions {
     double tolerance = 1e-3;     ///< Relative static force residual to reach [1].
     double max_time = 30;        ///< Simulated time after which to give up [s].
     int newton_iterations = 12;
+    std::function<bool()> stop;         ///< Asked within steps: true gives up the one at hand and stops.
     int load_steps = 1;          ///< The weight grows to its whole in so many steps, with rest after each.
 };
 

@@ -68,7 +68,7 @@ public:
         });
     }
 
-    LinearResult solve(const double* b, double tolerance, double* x) override
+    LinearResult solve(const double* b, double tolerance, double* x, int at_most) override
     {
         LinearResult result;
         const int n = pattern_.rows(), stride = stride_;
@@ -82,7 +82,7 @@ public:
             }
         });
         result.relative_residual = scale > 0 ? 1 : 0;
-        if (scale > 0) iterate(tolerance, result);
+        if (scale > 0) iterate(tolerance, std::min(at_most, options_.max_iterations), result);
         for_each_item(n, [=, y = x_.data()](int v) {
             for (int c = 0; c < 3; ++c) x[c * stride + v] = scale * double(y[3 * v + c]);
         });
@@ -153,14 +153,14 @@ private:
         });
     }
 
-    void iterate(double tolerance, LinearResult& result)
+    void iterate(double tolerance, int at_most, LinearResult& result)
     {
         const int size = int(x_.size());
         linear *z = z_.data(), *p = p_.data();
         precondition();
         p_ = z_;
         double rz = dot(r_, z_);
-        while (result.iterations < options_.max_iterations) {
+        while (result.iterations < at_most) {
             multiply(p_, q_);
             const double curvature = dot(p_, q_);
             if (!(curvature > 0) || !(rz > 0)) {

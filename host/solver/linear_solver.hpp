@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -52,8 +53,12 @@ public:
     virtual void multiply(const double* x, double* y) = 0;
     /// Solves A x = b to |b - A x| <= tolerance |b|.
     /// @param b  three planes of state.size.vertex_stride; pinned vertices must hold 0
-    /// @param x  like b; overwritten
-    virtual LinearResult solve(const double* b, double tolerance, double* x) = 0;
+    /// @param x  like b; overwritten   @param at_most  iterations, at most those of the options
+    virtual LinearResult solve(const double* b, double tolerance, double* x, int at_most) = 0;
+    LinearResult solve(const double* b, double tolerance, double* x)
+    {
+        return solve(b, tolerance, x, std::numeric_limits<int>::max());
+    }
     virtual std::size_t bytes() const = 0;   ///< Memory held.
     /// Runs one operation on the vectors that the last solve left behind.
     virtual void run(LinearOperation operation) = 0;

@@ -13,6 +13,7 @@ namespace {
 constexpr double nearly_done = 10;         // times what would be done: a direction that gains no more may fail
 constexpr double noise_of_promise = 1e-9;  // of the objective: what a direction may promise wrongly
 constexpr double linear_tolerance_of_following = 0.1;
+constexpr int iterations_of_following = 60;   // it only leads the cloth on: in a jam, which solves badly, part of it must do
 constexpr int most_held_up = 60;   // iterations while bodies or pins wait for the cloth to make way
 
 // Sum over vertices of the product of two fields with three components.
@@ -241,7 +242,7 @@ void Newton::follow_pins(std::vector<real>& move)
     for_each_item(int(move.size()), [this, vs = state_.size.vertex_stride](int i) {
         downhill_[i] = i % vs < state_.size.vertex_count && state_.inv_mass[i % vs] != 0 ? -downhill_[i] : 0;
     });
-    linear_.solve(downhill_.data(), linear_tolerance_of_following, direction_.data());
+    linear_.solve(downhill_.data(), linear_tolerance_of_following, direction_.data(), iterations_of_following);
     if (contact_) keep_outside_bodies();
     for_each_item(int(move.size()), [&, this, vs = state_.size.vertex_stride](int i) {
         if (state_.inv_mass[i % vs] != 0) move[i] = direction_[i];
@@ -264,6 +265,8 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
 {
     NewtonReport report;
     for (;; ++report.iterations) {
+        report.broken_off = options.stop && *options.stop && (*options.stop)();
+        if (report.broken_off) return report;
         const bool held_up = advance_held();
         if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
         if (settle_each) settle();

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "host/solver/active_terms.hpp"
@@ -20,11 +21,13 @@ struct NewtonOptions {
     double max_move = 0.02;            ///< Largest way of a vertex near a body in one iteration [m].
     double max_far_move = 0.1;         ///< Largest way of a vertex that is not near one, if there are bodies [m].
     bool full_stiffness = false;       ///< Exact second derivatives instead of the projected ones.
+    const std::function<bool()>* stop = nullptr;   ///< Asked before each iteration: true breaks off.
 };
 
 struct NewtonReport {
     bool converged = false;            ///< The tolerance was met.
     bool stuck = false;                ///< No step along the direction lowered the objective.
+    bool broken_off = false;           ///< As asked: the state is that of an unfinished step.
     bool nearly = false;               ///< Stuck where hardly anything was left to gain.
     int iterations = 0;
     int linear_iterations = 0;

@@ -134,6 +134,14 @@ bool StepControl::keeps_energy(double span, double kinetic_before, double potent
     return terms.kinetic_energy() + terms.potential_energy() - first_energy_ <= most_gain * moved;
 }
 
+// Back to where the step began.
+void StepControl::give_up()
+{
+    if (moves_) phase_.place(clock_);
+    restore(start_);
+    looked_from_ = start_.pos;
+}
+
 // After a failure.
 void StepControl::shrink(double dt)
 {
@@ -166,11 +174,14 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
         const bool sound = !fills || dt >= floor_ || dt >= 0.5 * (span - done);
         const bool last = !fills || span - done - dt <= 1e-9 * span;
         if (moves_) phase_.move_to(clock_ + done + dt);
-        if (!sound || !attempt(dt, options, accurate) || passed_into_body(last) ||
+        const bool done_well = sound && attempt(dt, options, accurate);
+        if (sound && report_.broken_off) {
+            give_up();
+            return taken_ = 0;
+        }
+        if (!done_well || passed_into_body(last) ||
             (last && !keeps_energy(span, kinetic, potential))) {
-            if (moves_) phase_.place(clock_);
-            restore(start_);
-            looked_from_ = start_.pos;
+            give_up();
             done = 0;
             shrink(first);
             continue;

@@ -85,6 +85,7 @@ private:
     bool too_inaccurate(double dt);
     bool passed_into_body(bool last);
     bool keeps_energy(double span, double kinetic_before, double potential_before);
+    void give_up();
     void shrink(double dt);
 
     Phase& phase_;

@@ -25,7 +25,7 @@ public:
         factorise(matrix_);
     }
 
-    LinearResult solve(const double* b, double, double* x) override
+    LinearResult solve(const double* b, double, double* x, int) override
     {
         scatter(factor_.solve(gathered(b)), x);
         return {1, 0, false};
