@@ -14,7 +14,8 @@ constexpr double nearly_done = 10;         // times what would be done: a direct
 constexpr double noise_of_promise = 1e-9;  // of the objective: what a direction may promise wrongly
 constexpr double linear_tolerance_of_following = 0.1;
 constexpr int iterations_of_following = 60;   // it only leads the cloth on: in a jam, which solves badly, part of it must do
-constexpr int most_held_up = 60;   // iterations while bodies or pins wait for the cloth to make way
+constexpr int turns_of_cloth = 3;   // iterations for each move of bodies or pins: pushed on and on it cannot make way
+constexpr int most_held_up = 60 * turns_of_cloth;   // iterations while they wait for it
 
 // Sum over vertices of the product of two fields with three components.
 double dot3(const State& state, const std::vector<real>& a, const std::vector<real>& b)
@@ -267,7 +268,7 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
     for (;; ++report.iterations) {
         report.broken_off = options.stop && *options.stop && (*options.stop)();
         if (report.broken_off) return report;
-        const bool held_up = advance_held();
+        const bool held_up = report.iterations % turns_of_cloth == 0 ? advance_held() : cloth_ && cloth_->held_up();
         if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
         if (settle_each) settle();
         evaluate_gradient();
