@@ -206,6 +206,21 @@ TEST_CASE("a sheet that is flat or gently curved has no candidates and is skippe
     }
 }
 
+TEST_CASE("a sheet that was flat and is folded has candidates again, and none when it is flat once more", "[tree]")
+{
+    const Cloth cloth = grid_cloth(33, 33, spacing);
+    const int stride = padded_stride(int(cloth.positions.size()));
+    ClothTree tree(tree_surface(make_topology(cloth, false), cloth), 0.15 * spacing);
+    std::vector<Vec3> folded = cloth.positions;
+    for (Vec3& p : folded)
+        if (p.x() > 0.3) p = {0.6 - p.x(), p.y(), 0.001};
+    for (const bool flat : {true, false, true, false}) {
+        const std::vector<real> pos = as_planes(flat ? cloth.positions : folded, stride);
+        tree.cover(pos.data(), nullptr, stride, {{}}, 0.002, 0.002);
+        CHECK(tree.candidates().empty() == flat);
+    }
+}
+
 TEST_CASE("a motion that the whole cloth has in common needs no new search", "[tree]")
 {
     std::mt19937 random(10);

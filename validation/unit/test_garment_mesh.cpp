@@ -477,3 +477,17 @@ TEST_CASE("both sides of a seam get the same transfer weights from paired coarse
         for (const auto& [column, weight] : from_a) CHECK(from_b[column] == Approx(weight).margin(1e-9));
     }
 }
+
+TEST_CASE("transfers have no weights that only rounding has left")
+{
+    const Pattern pattern = pattern_of({curved_panel("panel")});
+    const Transfer transfer = make_transfer(assemble(pattern, 0.05), assemble(pattern, 0.012));
+    for (std::size_t row = 0; row + 1 < transfer.offset.size(); ++row) {
+        double sum = 0;
+        for (int k = transfer.offset[row]; k < transfer.offset[row + 1]; ++k) {
+            CHECK(transfer.weight[k] > 1e-7);
+            sum += transfer.weight[k];
+        }
+        CHECK(sum == Approx(1).epsilon(1e-14));
+    }
+}

@@ -199,6 +199,53 @@ TEST_CASE("a hanging sheet comes to rest with its forces balanced and its pins w
     CHECK(now[4].z() < -0.1);
 }
 
+TEST_CASE("a phase that starts over is one that was made with the new positions")
+{
+    ClothModel model = grid_model(9);
+    model.cloth.pinned = {72, 80};
+    std::vector<Vec3> bent = model.cloth.positions;
+    for (Vec3& x : bent) x.z() = 0.3 * x.x() * x.x();
+    PhaseOptions options;
+    options.params = cloth_params();
+    Profile profile;
+    Phase again(model, options, nullptr, profile, model.cloth.positions, {}), fresh(model, options, nullptr, profile, bent, {});
+    NewtonOptions newton;
+    again.newton().step(0.01, newton);
+    again.start_over(model, bent);
+    for (Phase* phase : {&again, &fresh})
+        for (int step = 0; step < 3; ++step) phase->newton().step(0.01, newton);
+    CHECK(again.state().pos == fresh.state().pos);
+    CHECK(again.state().vel == fresh.state().vel);
+}
+
+TEST_CASE("a step that is to stop is given up as if it had not begun")
+{
+    ClothModel model = grid_model(9);
+    model.cloth.pinned = {72, 80};
+    PhaseOptions options;
+    options.params = cloth_params();
+    Profile profile;
+    Phase phase(model, options, nullptr, profile, model.cloth.positions, {});
+    int asked = 0;
+    EquilibriumOptions equilibrium;
+    equilibrium.stop = [&asked] { return ++asked > 6; };   // in the middle of a step
+    std::vector<real> pos, vel;
+    DrapeProgress progress;
+    double time = 0;
+    const auto after_step = [&](const StepEvent& event) {
+        pos = phase.state().pos;
+        vel = phase.state().vel;
+        time = event.time;
+        return true;
+    };
+    REQUIRE(drape_until(phase, equilibrium, 1, 0.02, progress, after_step) == PhaseEnd::stopped);
+    CHECK(asked == 7);
+    CHECK(time > 0);
+    CHECK(progress.time == time);
+    CHECK(phase.state().pos == pos);
+    CHECK(phase.state().vel == vel);
+}
+
 TEST_CASE("a plan launches and allocates only what the scene has")
 {
     std::vector<std::string> overrides{"sheet.resolution=9"};
