@@ -3,12 +3,14 @@
 #include "host/solver/hysteresis.hpp"
 #include "host/solver/plate.hpp"
 #include "host/solver/terms.hpp"
+#include "host/solver/trace.hpp"
 
 namespace selvage {
 
 State make_state(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics, const Params& params,
                  const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
 {
+    const TraceScope scope("state");
     const FieldSet fields = required_fields(params);
     const bool plated = fields[std::size_t(Field::coupling_rigidity)];
     const PlateMatrix plate = plated ? make_plate(topology, cloth, fabrics) : PlateMatrix{};

@@ -5,6 +5,7 @@
 #include "host/solver/cloth_state.hpp"
 #include "host/solver/hysteresis.hpp"
 #include "host/solver/springs.hpp"
+#include "host/solver/trace.hpp"
 
 namespace selvage {
 namespace {
@@ -13,6 +14,7 @@ constexpr double lift_of_edge = 0.5;   // how much further off a body what it pi
 
 Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
 {
+    const TraceScope scope("topology");
     Topology topology = make_topology(model.cloth, options.joined);
     add_springs(topology, model.cloth, model.fabrics, springs_of(options.params));
     return topology;
@@ -20,6 +22,7 @@ Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
 
 ParticleTransfers particle_transfers(const ClothModel& model, const Topology& finest, bool joined)
 {
+    const TraceScope scope("particle_transfers");
     ParticleTransfers transfers;
     Topology finer = finest;
     for (std::size_t level = 0; level < model.coarser.size(); ++level) {
@@ -41,16 +44,21 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
     const bool multigrid = options.linear.preconditioner == Preconditioner::multigrid;
     const ParticleTransfers transfers =
         multigrid ? particle_transfers(model, topology_, options.joined) : ParticleTransfers{};
-    linear_ = options.float_solves ? make_linear_solver_float(state_, options.linear, transfers)
-                                   : make_linear_solver_double(state_, options.linear, transfers);
+    {
+        const TraceScope scope("linear_solver");
+        linear_ = options.float_solves ? make_linear_solver_float(state_, options.linear, transfers)
+                                       : make_linear_solver_double(state_, options.linear, transfers);
+    }
     if (query && !state_.contact_normal.empty())
         contact_ = std::make_unique<FabricContact>(*query, model.bodies, topology_, model.cloth, model.fabrics,
                                                    body_gap(options.params), options.contact_margin,
                                                    meets_itself(options.params));
-    if (meets_itself(options.params))
+    if (meets_itself(options.params)) {
+        const TraceScope scope("cloth_tree");
         cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, query ? model.bodies : std::vector<Body>{},
                                                         cloth_gap(options.params),
                                                         particle_friction(topology_, model.cloth, model.fabrics));
+    }
     if (cloth_contact_ && contact_ && contact_->motion_end() > 0)
         cloth_contact_->set_carry([this](State& state, double time) { contact_->move_to(state, time); });
     if (cloth_contact_ && contact_) contact_->lift(cloth_contact_->pierced(), lift_of_edge * edge_length_);
@@ -88,6 +96,7 @@ void Phase::take_hold()
 
 void Phase::look_around()
 {
+    const TraceScope scope("look_around");
     if (contact_) contact_->update(state_);
     if (cloth_contact_) cloth_contact_->begin(state_);
 }
