@@ -90,9 +90,11 @@ StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
 }
 
 // Whether a step may be left unsolved: what an iteration leaves over, a damped scheme of first order makes up for later.
+// Friction remembers the way, though: who lets the weight grow in steps asks for a way that is followed.
 bool may_hurry(const Integrator& integrator, const EquilibriumOptions& options)
 {
-    return !integrator.info().is_explicit && integrator.info().order <= 1 && !options.step.adaptive;
+    return !integrator.info().is_explicit && integrator.info().order <= 1 && !options.step.adaptive &&
+           options.load_steps == 1;
 }
 
 // Rest under the present weight.
