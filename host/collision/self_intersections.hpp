@@ -20,7 +20,6 @@ class IntersectionTarget {
 public:
     explicit IntersectionTarget(TriangleMesh mesh);
     IntersectionTarget(const IntersectionTarget&) = delete;   // its tree refers to its mesh
-    const TriangleMesh& mesh() const { return mesh_; }
 
     /// As mutual_intersections.
     std::vector<IntersectingPair> intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces) const;
