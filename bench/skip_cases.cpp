@@ -15,6 +15,7 @@ namespace {
 struct SceneParts {
     std::string fabric, bodies, tables, output, solver, contact = "self = false", weft = "stretch_weft = 1000";
     double damping = 0;            // without it a fabric has some
+    bool in_places = false;        // most of the cloth lies still
 };
 
 std::string scene_text(const SceneParts& parts, int resolution, double until)
@@ -50,6 +51,37 @@ picture_width = 800
 {})",
                        resolution, parts.weft, parts.damping, parts.fabric, parts.bodies, parts.tables, parts.contact, until, parts.solver,
                        parts.output);
+}
+
+// A small sheet that falls on a ball beside a large one that lies on the floor, to equilibrium.
+std::string resting_scene(const SceneParts& parts, int resolution)
+{
+    return fmt::format(R"([[sheet]]
+width = 1.2
+height = 1.2
+resolution = {}
+fabric = "cotton"
+center = [-0.9, 0, 0.0012]
+[[sheet]]
+width = 0.4
+height = 0.4
+resolution = {}
+fabric = "cotton"
+center = [0.3, 0, 0.33]
+[[body]]
+name = "floor"
+shape = "plane"
+[[body]]
+name = "ball"
+shape = "sphere"
+radius = 0.15
+center = [0.3, 0, 0.16]
+[solver]
+until = "equilibrium"
+{}
+[output]
+{})",
+                       resolution, resolution / 3, parts.solver, parts.output);
 }
 
 constexpr const char* quiet_output = "picture = false\nframes = false\n";
@@ -105,6 +137,12 @@ std::vector<Feature> features(const std::string& folder)
          [curve](SceneParts& parts) { parts.weft = curve; }, "curved_membrane"},
         {"seams", nothing, [](SceneParts& parts) { parts.tables = "[seams]\nstiffness = 4e4\n"; }, {}, "seam"},
         {"self-contact", nothing, [](SceneParts& parts) { parts.contact = "self = true"; }, {}, "cloth_contact_pairs"},
+        {"sleep",
+         [](SceneParts& parts) {
+             parts.in_places = true;
+             parts.solver = "sleep = false";
+         },
+         {}, [](SceneParts& parts) { parts.in_places = true; }, "fall_asleep"},
         {"frames", nothing, {}, [](SceneParts& parts) { parts.output = "picture = false\n"; }, "write_frame"},
         {"picture", nothing, [](SceneParts& parts) { parts.output = std::string("picture_samples = 8\n") + quiet_output; },
          [](SceneParts& parts) { parts.output = "frames = false\n"; }, "opencv"},
@@ -125,7 +163,7 @@ std::vector<SkipCase> skip_cases(int resolution, double until, const std::string
             parts.output = quiet_output;
             change(parts);
             const std::string path = folder + "/" + feature.name + "_" + state + ".toml";
-            write_file_atomically(path, scene_text(parts, resolution, until));
+            write_file_atomically(path, parts.in_places ? resting_scene(parts, resolution) : scene_text(parts, resolution, until));
             cases.push_back({feature.name, state, path, feature.trace});
         }
     }

@@ -12,7 +12,7 @@ struct SkipCase {
 };
 
 /// All cases; the first of each feature is the one without it. Idle means: declared, with nothing to do.
-/// The sheet hangs without folds, so that contact with itself is idle at most.
+/// The sheet hangs without folds, so that contact with itself is idle at most. Sleep is shown by a scene that mostly rests.
 /// @param resolution  vertices a side   @param until  simulated time [s]   @param folder  where scenes are written
 std::vector<SkipCase> skip_cases(int resolution, double until, const std::string& folder);
 

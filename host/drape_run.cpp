@@ -150,6 +150,7 @@ EquilibriumOptions DrapeRun::draping_options()
     options.tolerance = scene_.solver.tolerance;
     options.max_time = scene_.solver.max_time;
     options.newton_iterations = scene_.solver.newton_iterations;
+    options.sleeps = scene_.solver.sleep;
     options.load_steps = scene_.solver.load_steps;
     options.stop = [this] { return must_stop(); };
     return options;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/commands/commands.hpp"
+#include "host/solver/subnormals.hpp"
 #include "io/errors.hpp"
 #include "io/version.hpp"
 
@@ -55,6 +56,7 @@ int run(const Action& action)
 
 int main(int argc, char** argv)
 {
+    flush_subnormals();
     CLI::App program("Selvage drapes cloth: sews flat panels onto a body and finds how they hang.", "selvage");
     Action chosen;
     add_commands(program, chosen);

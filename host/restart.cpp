@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "host/solver/sleep.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -93,7 +94,7 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
                         {"integrator", std::string(integrator.info().name)}};
     checkpoint.integers["counts"] = {p.counters.steps, p.counters.newton_iterations, p.counters.linear_iterations,
                                      p.frames, p.sewing.steps_without_gain, p.pressing.step, p.draping.hold,
-                                     p.draping.load};
+                                     p.draping.load, state.awake.all ? 0 : p.draping.asleep};
     checkpoint.reals["clock"] = {p.counters.simulated, p.wall_seconds};
     checkpoint.reals["sewing"] = {p.sewing.time, p.sewing.best_gap, p.sewing.elastic_energy, p.sewing.gap,
                                   p.sewing.energy_change, p.sewing.dt, phase.params().seam.stiffness,
@@ -105,6 +106,10 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
     checkpoint.reals["friction_anchor"] = state.friction_anchor;
     checkpoint.reals["friction_limit"] = state.friction_limit;
     checkpoint.reals["hinge_anchor"] = state.hinge_anchor;
+    if (!state.awake.all) {
+        checkpoint.integers["is_awake"].assign(state.awake.is_awake.begin(), state.awake.is_awake.end());
+        checkpoint.reals["asleep"] = {state.awake.force_squared};
+    }
     if (phase.cloth_contact()) {
         checkpoint.reals["pair_memory"] = phase.cloth_contact()->memory();
         checkpoint.reals["cloth_faults"] = phase.cloth_contact()->faults();
@@ -124,7 +129,7 @@ RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path,
     p.phase = word_of(checkpoint, "phase");
     if (p.phase != "sew" && p.phase != "press" && p.phase != "coarse" && p.phase != "drape")
         throw InputError({path, 0, 0, "phase"}, "`" + p.phase + "`", "sew, press, coarse or drape");
-    const auto& counts = array_of(checkpoint.integers, "counts", path, 8);
+    const auto& counts = array_of(checkpoint.integers, "counts", path, 9);
     const auto& clock = array_of(checkpoint.reals, "clock", path, 2);
     const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
     const auto& draping = array_of(checkpoint.reals, "draping", path, 5);
@@ -136,7 +141,7 @@ RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path,
     p.wall_seconds = clock[1];
     p.sewing = {sewing[0], sewing[1], counts[4], sewing[2], sewing[3], sewing[4], sewing[5]};
     p.pressing = {counts[5], draping[0]};
-    p.draping = {draping[1], draping[2], counts[6], draping[3], draping[4], counts[7]};
+    p.draping = {draping[1], draping[2], counts[6], draping[3], draping[4], counts[7], counts[8]};
     for (const auto& [name, values] : checkpoint.reals)
         if (name.starts_with("phase_") && !values.empty()) p.counters.phases[name.substr(6)] = values.front();
     return p;
@@ -165,6 +170,10 @@ void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase
     phase.look_around();
     if (ClothContact* cloth = phase.cloth_contact())
         cloth->set_faults(array_of(checkpoint.reals, "cloth_faults", path, cloth->faults().size()));
+    if (!checkpoint.integers.contains("is_awake")) return;
+    const auto& awake = array_of(checkpoint.integers, "is_awake", path, std::size_t(state.size.vertex_count));
+    phase.newton().static_residual();   // what sleeps is evaluated for the last time
+    put_to_sleep(phase, std::vector<char>(awake.begin(), awake.end()), array_of(checkpoint.reals, "asleep", path, 1)[0]);
 }
 
 void load_history(const Checkpoint& checkpoint, const std::string& path, Integrator& integrator)

@@ -111,6 +111,7 @@
     KEY(double, tolerance, 1e-3, "1", 1e-9, 1, "equilibrium: net force over gravity force on free vertices")     \
     KEY(double, energy_tolerance, 1e-4, "1", 0, 1, "sewing: relative change of elastic energy between steps at which it may stop") \
     KEY(bool, progressive, true, "1", 0, 1, "equilibrium: coarser meshes of the cloth are draped first, where that leads to the same rest; `plan` tells") \
+    KEY(bool, sleep, true, "1", 0, 1, "equilibrium: what hardly moves on the way to rest sleeps for some steps") \
     KEY(int, load_steps, 1, "1", 1, 100, "equilibrium: the weight grows to its whole in so many steps, with rest after each") \
     KEY(double, max_time, 30, "s", 0, 1e6, "simulated time after which a run to equilibrium gives up")           \
     KEY(double, max_wall, 0, "s", 0, 1e7, "wall time after which the run is saved and ends; 0: no limit")        \

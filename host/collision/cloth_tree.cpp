@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -269,6 +270,44 @@ bool ClothTree::cover(const double* from, const double* move, int stride, const 
     return true;
 }
 
+void ClothTree::let_sleep(const std::vector<char>* is_awake)
+{
+    valid_ = false;
+    asleep_.clear();
+    if (!is_awake) {
+        is_awake_.clear();
+        return;
+    }
+    is_awake_ = *is_awake;
+    face_sleeps_.resize(surface_.faces.size());
+    parallel(int(surface_.faces.size()), [this](int f) {
+        const Face& face = surface_.faces[f];
+        face_sleeps_[f] = std::all_of(face.begin(), face.end(), [this](int c) { return sleeps(c); });
+    });
+    node_sleeps_.assign(nodes_.size(), 1);
+    for (int n = int(nodes_.size()) - 1; n >= 0; --n)
+        if (nodes_[n].right > 0)
+            node_sleeps_[n] = node_sleeps_[n + 1] && node_sleeps_[nodes_[n].right];
+        else
+            for (int k = 0; k < nodes_[n].count; ++k)
+                node_sleeps_[n] = node_sleeps_[n] && face_sleeps_[order_[nodes_[n].first + k]];
+    std::copy_if(candidates_.begin(), candidates_.end(), std::back_inserter(asleep_),
+                 [this](const PairCandidate& candidate) { return sleeps(candidate); });
+}
+
+// What was found before they fell asleep is where it is still.
+void ClothTree::keep_asleep()
+{
+    const std::size_t first = candidates_.size();
+    candidates_.insert(candidates_.end(), asleep_.begin(), asleep_.end());
+    parallel(int(asleep_.size()), [&](int k) {
+        PairCandidate& candidate = candidates_[first + std::size_t(k)];
+        PairCorners x;
+        for (int i = 0; i < 4; ++i) x[i] = start_[slot(candidate.corner[i])];
+        candidate.distance = rounded_down(pair_distance(x, candidate.edges));
+    });
+}
+
 void ClothTree::search()
 {
     ++counts_.searches;
@@ -300,6 +339,7 @@ void ClothTree::search()
         skipped_.insert(skipped_.end(), skipped[p].begin(), skipped[p].end());
     }
     counts_.flat_skipped += static_cast<long long>(skipped_.size());
+    keep_asleep();
 }
 
 void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
@@ -307,6 +347,7 @@ void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<i
 {
     const auto [a, b] = pair;
     const Node &na = nodes_[a], &nb = nodes_[b];
+    if (!is_awake_.empty() && node_sleeps_[a] && node_sleeps_[b]) return;
     if (a == b) {
         if (is_body(a)) return;
         if (is_flat(a, flat_to_skip)) {
@@ -345,7 +386,7 @@ bool ClothTree::may_touch(const PairCandidate& candidate) const
 // Keeps a pair whose distance is not more than what it can lose.
 void ClothTree::offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const
 {
-    if (!may_touch(candidate)) return;
+    if (!may_touch(candidate) || (!is_awake_.empty() && sleeps(candidate))) return;
     const int first = candidate.edges ? 2 : 1;
     PairCorners x, move;
     double slack[2] = {0, 0};
@@ -365,6 +406,7 @@ void ClothTree::offer(const PairCandidate& candidate, std::vector<PairCandidate>
 // Offers the pairs of two faces' primitives, those that are near the other face as a whole.
 void ClothTree::meet(int face_a, int face_b, std::vector<PairCandidate>& found) const
 {
+    if (!is_awake_.empty() && face_sleeps_[face_a] && face_sleeps_[face_b]) return;
     if (!face_box_[face_a].meets(face_box_[face_b])) return;
     const Face &a = surface_.faces[face_a], &b = surface_.faces[face_b];
     const auto edge_box = [this](const Face& f, int k) {

@@ -76,6 +76,10 @@ public:
     bool cover(const double* from, const double* move, int stride, const TreeBodies& bodies, double reach,
                double body_reach);
 
+    /// From here on looks only at what has an awake corner, until told otherwise. What is known of the others stays known:
+    /// their corners, and those of bodies, must stand still. @param is_awake  per particle; null: all are
+    void let_sleep(const std::vector<char>* is_awake);
+
     const std::vector<PairCandidate>& candidates() const { return candidates_; }
     const TreeCounts& counts() const { return counts_; }
     void forget() { valid_ = false; }      ///< The next call of cover searches.
@@ -135,6 +139,12 @@ private:
     void meet(int face_a, int face_b, std::vector<PairCandidate>& found) const;
     void offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const;
     bool may_touch(const PairCandidate& candidate) const;
+    bool sleeps(int corner) const { return corner < 0 || !is_awake_[corner]; }
+    bool sleeps(const PairCandidate& candidate) const
+    {
+        return std::all_of(candidate.corner.begin(), candidate.corner.end(), [this](int c) { return sleeps(c); });
+    }
+    void keep_asleep();
     int slot(int corner) const { return corner >= 0 ? corner : particles_ - 1 - corner; }
     bool is_body(int node) const { return nodes_[node].patch >= 0 && !surface_.patches[nodes_[node].patch].flat; }
     bool is_flat(int node, double threshold) const
@@ -157,6 +167,9 @@ private:
     std::vector<Sweep> corner_box_, face_box_, node_box_;
     std::vector<Gradients> face_gradients_, node_gradients_;
     std::vector<int> skipped_;                  // nodes that were taken for flat
+    std::vector<char> is_awake_;                // per particle; empty: all are
+    std::vector<char> face_sleeps_, node_sleeps_;
+    std::vector<PairCandidate> asleep_;         // candidates all of whose corners stand still
     double reach_ = 0, body_reach_ = 0;
     int body_version_ = -1;
     bool valid_ = false;

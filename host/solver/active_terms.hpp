@@ -24,14 +24,18 @@ public:
     /// Writes d2R/dv2 of the dissipative terms alone to state.vertex_stiffness [kg/s].
     void evaluate_drag();
 
-    double energy();                                 ///< Of all conservative terms [J]; counted in the profile.
-    double potential_energy() const;                 ///< The same, outside the profile [J].
+    /// Of all conservative terms [J], of what is awake; counted in the profile.
+    double energy();
+    double potential_energy() const;                 ///< Of the whole cloth, outside the profile [J].
     double dissipation() const;                      ///< R of all dissipative terms [W].
     double kinetic_energy() const;                   ///< [J]
     double energy_of(std::string_view term) const;   ///< Energy of one term [J]; 0 if inactive.
     bool dissipates() const { return !dissipative_.empty(); }
 
 private:
+    template <class Work>
+    auto timed(const Term& term, std::string_view name, std::int64_t bytes, const Work& work);
+
     State& state_;
     const Params& params_;
     Profile& profile_;

@@ -27,11 +27,13 @@ struct BlockMatrix {
     /// What y = A x must move [bytes].
     std::size_t product_bytes() const { return bytes() + 6 * std::size_t(rows()) * sizeof(linear); }
 
-    /// y = A x.
-    void multiply(const LinearVector& x, LinearVector& y) const
+    /// y = A x in those rows that take part.
+    void multiply(const Items& taking_part, const LinearVector& x, LinearVector& y) const
     {
-        const TraceScope scope("product", std::int64_t(product_bytes()), 2 * std::int64_t(block.size()));
-        launch<block_row_product>(rows(),
+        const double share = double(taking_part.count) / rows();
+        const TraceScope scope("product", std::int64_t(share * double(product_bytes())),
+                               std::int64_t(share * 2 * double(block.size())));
+        launch<block_row_product>(taking_part,
                                   block_rows_args{row_begin.data(), column.data(), block.data(), x.data(), y.data()});
     }
 
@@ -43,18 +45,21 @@ struct BlockMatrix {
     }
 };
 
-double dot(const LinearVector& a, const LinearVector& b)
+double dot(const Items& rows, const LinearVector& a, const LinearVector& b)
 {
-    return sum_items(int(a.size()), [x = a.data(), y = b.data()](int i) { return double(x[i]) * double(y[i]); });
+    return sum_items(rows, [x = a.data(), y = b.data()](int row) {
+        const int i = 3 * row;
+        return double(x[i]) * double(y[i]) + double(x[i + 1]) * double(y[i + 1]) + double(x[i + 2]) * double(y[i + 2]);
+    });
 }
 
 /// Inverse of the diagonal blocks.
 class BlockJacobi {
 public:
-    void build(const BlockMatrix& matrix)
+    void build(const Items& rows, const BlockMatrix& matrix)
     {
         inverse_.resize(9 * std::size_t(matrix.rows()));
-        for_each_item(matrix.rows(), [this, &matrix](int row) {
+        for_each_item(rows, [this, &matrix](int row) {
             using Block = Eigen::Matrix<linear, 3, 3, Eigen::RowMajor>;
             const Eigen::Map<const Block> source(matrix.block.data() + 9 * matrix.diagonal(row));
             Eigen::Matrix3d m = source.cast<double>();
@@ -64,9 +69,9 @@ public:
         });
     }
     /// z = D^-1 r.
-    void apply(const LinearVector& r, LinearVector& z) const
+    void apply(const Items& rows, const LinearVector& r, LinearVector& z) const
     {
-        launch<block_diagonal_product>(int(r.size() / 3), block_diagonal_args{inverse_.data(), r.data(), z.data()});
+        launch<block_diagonal_product>(rows, block_diagonal_args{inverse_.data(), r.data(), z.data()});
     }
     std::size_t bytes() const { return inverse_.size() * sizeof(linear); }
     const linear* inverse() const { return inverse_.data(); }   ///< Nine entries per row.

@@ -43,6 +43,9 @@ public:
     /// Looks for intersections that are there at the start.
     void begin(State& state);
 
+    /// Where particles stand still and only the others are looked at. @param is_awake  per particle; null: all move
+    void let_sleep(const std::vector<char>* is_awake) { tree_.let_sleep(is_awake); }
+
     /// Forgets what earlier steps have found, so that a step depends on the state alone and a resumed run goes the same way.
     void start_step() { tree_.forget(); }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/solver/sleep.hpp"
+
 namespace selvage {
 namespace {
 
@@ -97,6 +99,20 @@ bool may_hurry(const Integrator& integrator, const EquilibriumOptions& options)
            options.load_steps == 1;
 }
 
+void wake_all(Phase& phase, DrapeProgress& progress)
+{
+    if (progress.asleep > 0) wake(phase);
+    progress.asleep = 0;
+}
+
+// Whether all is at rest where what is awake is.
+PhaseEnd rest_of_all(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress)
+{
+    wake_all(phase, progress);
+    progress.residual = phase.newton().static_residual();
+    return progress.residual <= options.tolerance ? PhaseEnd::reached : PhaseEnd::time_limit;
+}
+
 // Rest under the present weight.
 PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOptions& options, DrapeProgress& progress,
                       const AfterStep& after_step)
@@ -111,19 +127,28 @@ PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOpt
     newton.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
     for (;;) {
         if (nearly_balanced(phase, options, progress)) {
-            const PhaseEnd end = relax(phase, options, progress, after_step);
-            if (end != PhaseEnd::time_limit) return end;
+            const bool was_part = progress.asleep > 0;
+            PhaseEnd end = relax(phase, options, progress, after_step);
+            if (end == PhaseEnd::stopped) return end;
+            if (was_part && end == PhaseEnd::reached) end = rest_of_all(phase, options, progress);
+            wake_all(phase, progress);
+            if (end == PhaseEnd::reached) return end;
             integrator.restart();
+            if (was_part && progress.residual <= 10 * options.tolerance) continue;   // the rest is near its place
             progress.switch_residual = std::max(0.5 * progress.switch_residual, 2 * options.tolerance);
             progress.hold = steps_between;
         }
-        if (progress.time >= options.max_time) return PhaseEnd::time_limit;
+        if (progress.time >= options.max_time) {
+            wake_all(phase, progress);
+            return PhaseEnd::time_limit;
+        }
         const bool follows = progress.time < phase.motion_end();   // bodies or pins, whose way counts
         newton.max_iterations = std::min(options.newton_iterations, hurries && !follows ? 1 : 3);
         progress.time += control.advance(follows ? options.step.longest : steps.longest, newton, false);
         if (control.report().broken_off) return PhaseEnd::stopped;
         progress.dt = control.dt();
         progress.residual = phase.newton().static_residual();
+        if (hurries && !follows && options.sleeps) rest_in_places(phase, progress.asleep);
         --progress.hold;
         if (!after_step(event_of(control, progress))) return PhaseEnd::stopped;
     }

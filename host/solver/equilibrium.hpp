@@ -10,6 +10,7 @@ struct EquilibriumOptions {
     double max_time = 30;        ///< Simulated time after which to give up [s].
     int newton_iterations = 12;
     std::function<bool()> stop;         ///< Asked within steps: true gives up the one at hand and stops.
+    bool sleeps = true;          ///< What hardly moves is left alone for some steps; see sleep.hpp.
     int load_steps = 1;          ///< The weight grows to its whole in so many steps, with rest after each.
 };
 
@@ -21,6 +22,7 @@ struct DrapeProgress {
     double residual = 1e30;      ///< Static residual after the last step [1].
     double dt = 0;               ///< Of the next step; 0: the longest [s].
     int load = 0;                ///< Load steps that are done.
+    int asleep = 0;              ///< Steps for which parts of the cloth will sleep.
 };
 
 /// Lets the cloth fall, by default with implicit steps, which are dissipative, and finishes with Newton's method on the static

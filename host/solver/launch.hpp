@@ -31,13 +31,34 @@ void for_each_item(int count, const Body& body)
     });
 }
 
-/// Runs `Kernel(item, &args)` for every item in [0, count) on the TBB threads.
+/// Items that take part: all of [0, count), or `count` of them that a list names in ascending order.
+struct Items {
+    int count = 0;
+    const int* list = nullptr;   ///< Null: all.
+};
+
+/// Runs `body(item)` for the items that take part.
+template <class Body>
+void for_each_item(const Items& items, const Body& body)
+{
+    if (items.list)
+        for_each_item(items.count, [body, list = items.list](int i) { body(list[i]); });
+    else
+        for_each_item(items.count, body);
+}
+
+/// Runs `Kernel(item, &args)` for every item that takes part on the TBB threads; `items` may be a count.
 /// A kernel writes only to its own item, so items run in any order, in parallel and in SIMD lanes.
 /// `args` is copied into each task, where the compiler can keep it in registers.
 template <auto Kernel, class Args>
+void launch(const Items& items, const Args& args)
+{
+    for_each_item(items, [args](int item) { Kernel(item, &args); });
+}
+template <auto Kernel, class Args>
 void launch(int count, const Args& args)
 {
-    for_each_item(count, [args](int item) { Kernel(item, &args); });
+    launch<Kernel>(Items{count}, args);
 }
 
 /// Returns the sum of `body(item)` over [0, count), accumulated in double precision.
@@ -55,11 +76,19 @@ double sum_items(int count, const Body& body)
         std::plus<>{});
 }
 
-/// Returns the sum of `Kernel(item, &args)` over [0, count); see sum_items.
-template <auto Kernel, class Args>
-double launch_sum(int count, const Args& args)
+/// The same over the items that take part.
+template <class Body>
+double sum_items(const Items& items, const Body& body)
 {
-    return sum_items(count, [args](int item) { return double(Kernel(item, &args)); });
+    if (!items.list) return sum_items(items.count, body);
+    return sum_items(items.count, [body, list = items.list](int i) { return body(list[i]); });
+}
+
+/// Returns the sum of `Kernel(item, &args)` over the items that take part; see sum_items.
+template <auto Kernel, class Args>
+double launch_sum(const Items& items, const Args& args)
+{
+    return sum_items(items, [args](int item) { return double(Kernel(item, &args)); });
 }
 
 /// Returns the largest `body(item)` over [0, count), or 0 without items.

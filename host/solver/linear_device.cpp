@@ -6,6 +6,7 @@
 #include "host/solver/block_matrix.hpp"
 #include "host/solver/multigrid.hpp"
 #include "host/solver/pair_list.hpp"
+#include "host/solver/terms.hpp"
 #include "kernels/stages/couple_hinges.h"
 
 namespace selvage {
@@ -43,7 +44,11 @@ public:
             ELEMENT_KINDS(KIND)
 #undef KIND
         };
-        for_each_item(pattern_.rows(), [&args, &kinds](int row) {
+        rows_ = items_of(state, ItemKind::vertex);
+        // What sleeps is as good as pinned: its rows are not looked at, and vectors hold zero there.
+        if (rows_.list)
+            for (LinearVector* v : {&x_, &r_, &z_, &p_, &q_, &turn_, &moment_}) std::fill(v->begin(), v->end(), linear(0));
+        for_each_item(rows_, [&args, &kinds](int row) {
             assemble_clear(row, &args);
             for (const assemble_kind& kind : kinds)
                 if (kind.stiffness) assemble_elements(row, &args, &kind);
@@ -51,9 +56,9 @@ public:
         });
         state_ = &state;
         if (solves && multigrid_)
-            multigrid_->build(matrix_);
+            multigrid_->build(matrix_, rows_, state.awake.is_awake);
         else if (solves)
-            jacobi_.build(matrix_);
+            jacobi_.build(rows_, matrix_);
     }
 
     void multiply(const double* x, double* y) override
@@ -72,10 +77,10 @@ public:
     {
         LinearResult result;
         const int n = pattern_.rows(), stride = stride_;
-        const double scale = std::sqrt(sum_items(n, [=](int v) {
+        const double scale = std::sqrt(sum_items(rows_, [=](int v) {
             return b[v] * b[v] + b[stride + v] * b[stride + v] + b[2 * stride + v] * b[2 * stride + v];
         }));
-        for_each_item(n, [=, r = r_.data(), y = x_.data()](int v) {
+        for_each_item(rows_, [=, r = r_.data(), y = x_.data()](int v) {
             for (int c = 0; c < 3; ++c) {
                 r[3 * v + c] = linear(scale > 0 ? b[c * stride + v] / scale : 0);
                 y[3 * v + c] = 0;
@@ -101,7 +106,7 @@ public:
         switch (operation) {
         case LinearOperation::product: multiply(p_, q_); break;
         case LinearOperation::precondition: precondition(); break;
-        case LinearOperation::dot: dot(r_, z_); break;
+        case LinearOperation::dot: dot(rows_, r_, z_); break;
         case LinearOperation::update: advance(linear(1e-12)); break;
         }
     }
@@ -110,7 +115,7 @@ private:
     // y = A x: the assembled matrix, and what of the stiffness of plates and contacts does not stand in it.
     void multiply(const LinearVector& x, LinearVector& y)
     {
-        matrix_.multiply(x, y);
+        matrix_.multiply(rows_, x, y);
         if (!turn_.empty()) couple_hinges(x, y);
         if (state_->size.pair_count > 0) couple_pairs(x, y);
     }
@@ -122,9 +127,10 @@ private:
                                s.coupling_slots.data(), s.coupling_hinge.data(), s.coupling_rigidity.data(),
                                s.hinge_slots.data(), s.hinge_slot.data(), x.data(), turn_.data(), moment_.data(),
                                y.data(), s.size.hinge_stride, s.size.vertex_stride};
-        launch<couple_turn>(s.size.hinge_count, args);
-        launch<couple_moment>(s.size.hinge_count, args);
-        launch<couple_gather>(s.size.vertex_count, args);
+        const Items hinges = items_of(s, ItemKind::hinge);
+        launch<couple_turn>(hinges, args);
+        launch<couple_moment>(hinges, args);
+        launch<couple_gather>(rows_, args);
     }
 
     void couple_pairs(const LinearVector& x, LinearVector& y)
@@ -133,7 +139,7 @@ private:
         relative_.resize(6 * std::size_t(s.size.pair_count));
         const couple_pairs_args args{pair_list_of(s), x.data(), relative_.data(), y.data(), s.inv_mass.data()};
         launch<couple_pairs_relative>(s.size.pair_count, args);
-        launch<couple_pairs_gather>(s.size.vertex_count, args);
+        launch<couple_pairs_gather>(rows_, args);
     }
 
     void precondition()
@@ -141,28 +147,29 @@ private:
         if (multigrid_)
             multigrid_->apply(matrix_, r_, z_);
         else
-            jacobi_.apply(r_, z_);
+            jacobi_.apply(rows_, r_, z_);
     }
 
     // x += step p, r -= step q.
     void advance(linear step)
     {
-        for_each_item(int(x_.size()), [=, x = x_.data(), r = r_.data(), p = p_.data(), q = q_.data()](int i) {
-            x[i] += step * p[i];
-            r[i] -= step * q[i];
+        for_each_item(rows_, [=, x = x_.data(), r = r_.data(), p = p_.data(), q = q_.data()](int row) {
+            for (int i = 3 * row; i < 3 * row + 3; ++i) {
+                x[i] += step * p[i];
+                r[i] -= step * q[i];
+            }
         });
     }
 
     void iterate(double tolerance, int at_most, LinearResult& result)
     {
-        const int size = int(x_.size());
         linear *z = z_.data(), *p = p_.data();
         precondition();
         p_ = z_;
-        double rz = dot(r_, z_);
+        double rz = dot(rows_, r_, z_);
         while (result.iterations < at_most) {
             multiply(p_, q_);
-            const double curvature = dot(p_, q_);
+            const double curvature = dot(rows_, p_, q_);
             if (!(curvature > 0) || !(rz > 0)) {
                 result.negative_curvature = true;
                 if (result.iterations == 0) x_ = p_;   // a descent direction is better than none
@@ -170,13 +177,15 @@ private:
             }
             advance(linear(rz / curvature));
             ++result.iterations;
-            result.relative_residual = std::sqrt(dot(r_, r_));
+            result.relative_residual = std::sqrt(dot(rows_, r_, r_));
             if (result.relative_residual <= tolerance) return;
             precondition();
-            const double next = dot(r_, z_);
+            const double next = dot(rows_, r_, z_);
             const linear turn = linear(next / rz);
             rz = next;
-            for_each_item(size, [=](int i) { p[i] = z[i] + turn * p[i]; });
+            for_each_item(rows_, [=](int row) {
+                for (int i = 3 * row; i < 3 * row + 3; ++i) p[i] = z[i] + turn * p[i];
+            });
         }
     }
 
@@ -187,6 +196,7 @@ private:
     BlockJacobi jacobi_;
     std::optional<Multigrid> multigrid_;
     const State* state_ = nullptr;   // of the last assembly
+    Items rows_;                     // those awake then
     LinearVector x_, r_, z_, p_, q_;
     LinearVector turn_, moment_;     // per hinge; empty without a plate
     LinearVector relative_;          // per pair in contact

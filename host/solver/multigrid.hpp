@@ -20,7 +20,9 @@ public:
     Multigrid(const BlockPattern& finest, const std::vector<char>& pinned, const ParticleTransfers& transfers);
 
     /// Computes all coarse matrices and smoothers.
-    void build(const BlockMatrix& finest);
+    /// @param rows      of the finest level that take part; the others are left alone as if they were pinned
+    /// @param is_awake  per particle: 1 if it does; only read where not all do
+    void build(const BlockMatrix& finest, const Items& rows, const std::vector<char>& is_awake);
     /// z = one V-cycle applied to r.
     void apply(const BlockMatrix& finest, const LinearVector& r, LinearVector& z);
     std::size_t bytes() const;
@@ -32,6 +34,9 @@ private:
         double largest_eigenvalue = 0;           // of D^-1 A, estimated from below and grown a little
         LinearVector x, next, b, d;              // next: what a pass makes of x, and residuals
         std::string name;                        // in profiles
+        Items rows;                              // those that take part
+        std::vector<char> is_awake;              // per row, and their list; empty where all take part
+        std::vector<int> awake;
         // Interpolation from the next coarser level, and its transpose.
         std::vector<int> up_begin, up_column, down_begin, down_row;
         std::vector<linear> up_weight, down_weight;
@@ -42,7 +47,8 @@ private:
 
     void connect(Level& fine, const Transfer& transfer, const std::vector<char>* pinned, int coarse_rows);
     void plan_product(const std::vector<int>& row_begin, const std::vector<int>& column, Level& fine, BlockMatrix& coarse);
-    static void coarse_matrix(const BlockMatrix& fine_matrix, const Level& fine, BlockMatrix& coarse);
+    void select_rows(const Items& rows, const std::vector<char>& is_awake);
+    static void coarse_matrix(const BlockMatrix& fine_matrix, const Level& fine, const Level& coarse_level, BlockMatrix& coarse);
     void factorise_coarsest();
     void estimate_eigenvalue(const BlockMatrix& matrix, Level& level);
     static block_smooth_args pass(const BlockMatrix& matrix, Level& level, const linear* b);
@@ -131,18 +137,53 @@ void Multigrid::plan_product(const std::vector<int>& row_begin, const std::vecto
     coarse.block.resize(9 * coarse.column.size());
 }
 
-void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, BlockMatrix& coarse)
+// A coarse row takes part if one does that it interpolates to. Vectors hold zero in the others.
+void Multigrid::select_rows(const Items& rows, const std::vector<char>& is_awake)
+{
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        Level& level = levels_[l];
+        level.awake.clear();
+        level.is_awake.clear();
+        const int count = int(level.x.size() / 3);
+        level.rows = l == 0 ? rows : Items{count};
+        if (!rows.list) continue;
+        for (LinearVector* v : {&level.x, &level.next, &level.d, &level.b}) std::fill(v->begin(), v->end(), linear(0));
+        if (l == 0) {
+            level.is_awake = is_awake;
+            continue;
+        }
+        const Level& fine = levels_[l - 1];
+        level.is_awake.resize(std::size_t(count));
+        for (int row = 0; row < count; ++row) {
+            for (int k = fine.down_begin[row]; k < fine.down_begin[row + 1] && !level.is_awake[row]; ++k)
+                level.is_awake[row] = fine.is_awake[fine.down_row[k]];
+            if (level.is_awake[row]) level.awake.push_back(row);
+        }
+        level.rows = {int(level.awake.size()), level.awake.data()};
+    }
+}
+
+void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, const Level& coarse_level, BlockMatrix& coarse)
 {
     const TraceScope scope("coarse_matrix");
     for_each_item(coarse.rows(), [&](int row) {
         linear* const first = coarse.block.data() + 9 * std::size_t(coarse.row_begin[row]);
         std::fill(first, coarse.block.data() + 9 * std::size_t(coarse.row_begin[row + 1]), linear(0));
+        linear* const diagonal = coarse.block.data() + 9 * std::size_t(coarse.diagonal(row));
+        if (!coarse_level.is_awake.empty() && !coarse_level.is_awake[row]) {
+            for (int c = 0; c < 9; c += 4) diagonal[c] = 1;
+            return;
+        }
         std::size_t term = fine.plan_begin[row];
         for (int q = fine.down_begin[row]; q < fine.down_begin[row + 1]; ++q) {
             const int i = fine.down_row[q];
             for (int k = a.row_begin[i]; k < a.row_begin[i + 1]; ++k) {
                 const linear* from = a.block.data() + 9 * std::size_t(k);
                 const int j = a.column[k];
+                if (!fine.is_awake.empty() && !(fine.is_awake[i] && fine.is_awake[j])) {
+                    term += std::size_t(fine.up_begin[j + 1] - fine.up_begin[j]);
+                    continue;
+                }
                 for (int p = fine.up_begin[j]; p < fine.up_begin[j + 1]; ++p) {
                     linear* to = coarse.block.data() + 9 * std::size_t(fine.plan[term++]);
                     const linear weight = fine.down_weight[q] * fine.up_weight[p];
@@ -150,7 +191,6 @@ void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, BlockMatr
                 }
             }
         }
-        linear* const diagonal = coarse.block.data() + 9 * std::size_t(coarse.diagonal(row));
         for (int c = 0; c < 9; c += 4)
             if (!(diagonal[c] > 0)) diagonal[c] = 1;
     });
@@ -185,28 +225,33 @@ void Multigrid::estimate_eigenvalue(const BlockMatrix& matrix, Level& level)
     const TraceScope scope("eigenvalue");
     std::uint32_t seed = 1;
     for (linear& v : level.x) v = linear(int((seed = seed * 1664525u + 1013904223u) >> 16) % 2001 - 1000) / 1000;
+    for (std::size_t row = 0; row < level.is_awake.size(); ++row)
+        if (!level.is_awake[row]) std::fill_n(level.x.begin() + std::ptrdiff_t(3 * row), 3, linear(0));
     double growth = 1;
     for (int round = 0; round < 7; ++round) {
-        const double size = std::sqrt(dot(level.x, level.x));
-        for_each_item(int(level.x.size()), [v = level.x.data(), s = linear(1 / size)](int i) { v[i] *= s; });
-        matrix.multiply(level.x, level.next);
-        level.jacobi.apply(level.next, level.x);
-        growth = std::sqrt(dot(level.x, level.x));
+        const double size = std::sqrt(dot(level.rows, level.x, level.x));
+        for_each_item(level.rows, [v = level.x.data(), s = linear(1 / size)](int row) {
+            for (int i = 3 * row; i < 3 * row + 3; ++i) v[i] *= s;
+        });
+        matrix.multiply(level.rows, level.x, level.next);
+        level.jacobi.apply(level.rows, level.next, level.x);
+        growth = std::sqrt(dot(level.rows, level.x, level.x));
     }
     level.largest_eigenvalue = 1.15 * growth;
 }
 
-void Multigrid::build(const BlockMatrix& finest)
+void Multigrid::build(const BlockMatrix& finest, const Items& rows, const std::vector<char>& is_awake)
 {
     const TraceScope scope("multigrid_build");
+    select_rows(rows, is_awake);
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         if (l + 1 == levels_.size()) {
             factorise_coarsest();
             return;
         }
         const BlockMatrix& matrix = matrix_of(finest, l);
-        coarse_matrix(matrix, levels_[l], levels_[l + 1].matrix);
-        levels_[l].jacobi.build(matrix);
+        coarse_matrix(matrix, levels_[l], levels_[l + 1], levels_[l + 1].matrix);
+        levels_[l].jacobi.build(levels_[l].rows, matrix);
         estimate_eigenvalue(matrix, levels_[l]);
     }
 }
@@ -222,20 +267,21 @@ void Multigrid::smooth(const BlockMatrix& matrix, Level& level, const linear* b,
 {
     const double high = level.largest_eigenvalue, low = high / 6, middle = 0.5 * (high + low), radius = 0.5 * (high - low);
     const double sigma = middle / radius, rho = 1 / (2 * sigma - 1 / sigma);
-    const TraceScope scope("smooth", std::int64_t((from_zero ? 1 : 2) * matrix.product_bytes()),
-                           (from_zero ? 2 : 4) * std::int64_t(matrix.block.size()));
+    const double share = double(level.rows.count) / matrix.rows();
+    const TraceScope scope("smooth", std::int64_t(share * (from_zero ? 1 : 2) * double(matrix.product_bytes())),
+                           std::int64_t(share * (from_zero ? 2 : 4) * double(matrix.block.size())));
     block_smooth_args first = pass(matrix, level, b);
     first.gain = linear(1 / middle);
     if (from_zero)
-        launch<block_row_smooth_zero>(matrix.rows(), first);
+        launch<block_row_smooth_zero>(level.rows, first);
     else
-        launch<block_row_smooth>(matrix.rows(), first);
+        launch<block_row_smooth>(level.rows, first);
     level.x.swap(level.next);
     block_smooth_args second = pass(matrix, level, b);
     second.keep = linear(rho / sigma);
     second.gain = linear(2 * rho / radius);
     if (result) second.next = result;
-    launch<block_row_smooth>(matrix.rows(), second);
+    launch<block_row_smooth>(level.rows, second);
     if (!result) level.x.swap(level.next);
 }
 
@@ -252,15 +298,15 @@ void Multigrid::cycle(const BlockMatrix& matrix, std::size_t at, const linear* b
     }
     Level& coarse = levels_[at + 1];
     smooth(matrix, level, b, true);
-    launch<block_row_residual>(matrix.rows(), pass(matrix, level, b));
-    for_each_item(int(coarse.b.size() / 3), [&level, from = level.next.data(), to = coarse.b.data()](int row) {
+    launch<block_row_residual>(level.rows, pass(matrix, level, b));
+    for_each_item(coarse.rows, [&level, from = level.next.data(), to = coarse.b.data()](int row) {
         linear sum[3] = {0, 0, 0};
         for (int k = level.down_begin[row]; k < level.down_begin[row + 1]; ++k)
             for (int c = 0; c < 3; ++c) sum[c] += level.down_weight[k] * from[3 * level.down_row[k] + c];
         for (int c = 0; c < 3; ++c) to[3 * row + c] = sum[c];
     });
     cycle(coarse.matrix, at + 1, coarse.b.data());
-    for_each_item(int(level.x.size() / 3), [&level, from = coarse.x.data()](int row) {
+    for_each_item(level.rows, [&level, from = coarse.x.data()](int row) {
         for (int k = level.up_begin[row]; k < level.up_begin[row + 1]; ++k)
             for (int c = 0; c < 3; ++c) level.x[3 * row + c] += level.up_weight[k] * from[3 * level.up_column[k] + c];
     });

@@ -59,12 +59,13 @@ double Newton::objective()
     });
 }
 
-// downhill = f - m (x - target) / h^2, zero at pinned vertices.
+// downhill = f - m (x - target) / h^2, zero at vertices that are pinned or asleep.
 void Newton::evaluate_gradient()
 {
     terms_.evaluate_forces(inertia_ > 0);
     const int vs = state_.size.vertex_stride;
-    for_each_item(state_.size.vertex_count, [this, vs](int v) {
+    if (!state_.awake.all) for_each_item(int(downhill_.size()), [to = downhill_.data()](int i) { to[i] = 0; });
+    for_each_item(items_of(state_, ItemKind::vertex), [this, vs](int v) {
         for (int c = 0; c < 3; ++c) {
             const int i = c * vs + v;
             const double pull = inertia_ * state_.mass[v] * (target_[i] - state_.pos[i]);
@@ -337,7 +338,8 @@ double Newton::static_residual()
     inertia_ = 0;
     list_pairs();
     evaluate_gradient();
-    return gradient_norm() / force_scale_;
+    const double asleep = state_.awake.all ? 0 : state_.awake.force_squared;
+    return std::sqrt(dot3(state_, downhill_, downhill_) + asleep) / force_scale_;
 }
 
 }  // namespace selvage

@@ -63,9 +63,12 @@ public:
     /// Lists the pairs of cloth in contact: whoever evaluates forces elsewhere than on a way of Newton's must ask for it.
     void list_pairs();
 
-    /// Norm of the net conservative force on free vertices over that of gravity (or of `force_scale` if larger) [1].
+    /// Norm of the net conservative force on free vertices over that of gravity (or of `force_scale` if larger) [1]. Those
+    /// asleep count with what it was when they fell asleep.
     double static_residual();
     double force_scale() const { return force_scale_; }   ///< [N]
+
+    const std::vector<real>& downhill() const { return downhill_; }   ///< The last gradient, downhill, planes like pos [N].
 
     ActiveTerms& terms() { return terms_; }
     double energy_of(std::string_view term) const { return terms_.energy_of(term); }   ///< [J]; 0 if inactive.

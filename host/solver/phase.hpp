@@ -47,6 +47,7 @@ public:
     Params& params() { return options_.params; }
     const Params& params() const { return options_.params; }
     Newton& newton() { return *newton_; }
+    const Newton& newton() const { return *newton_; }
     LinearSolver& linear() { return *linear_; }
     ContactField* contact() { return contact_.get(); }
     const ContactField* contact() const { return contact_.get(); }
@@ -63,6 +64,7 @@ public:
     /// Moves bodies and pinned vertices to a time; see FabricContact::move_to.
     void move_to(double time);
 
+    bool has_rules() const { return !rules_.empty(); }
     /// Ends a step of dt [s] with the rules that are active. @returns true if one may have changed the state
     bool apply_rules(double dt);
 

@@ -37,6 +37,14 @@ int bytes_per_item(const FieldSet& fields, std::string_view kind);
 /// the planes of one field do not compete for the same cache sets (3 times faster at 16 k vertices).
 constexpr int padded_stride(int count) { return count == 0 ? 0 : (count + 127) / 128 * 128 + 48; }
 
+/// Which items take part in the steps at present: all, or those around vertices that are awake. See sleep.hpp.
+struct AwakeItems {
+    bool all = true;
+    std::vector<int> vertex, face, hinge, stitch, spring;   ///< In ascending order; unused while all are awake.
+    std::vector<char> is_awake;                             ///< Per vertex, likewise.
+    double force_squared = 0;                               ///< Sum of |f|^2 over the others, when they fell asleep [N^2].
+};
+
 /// Structure-of-arrays cloth state: component c of item i is at `name[c * stride + i]`.
 /// A field outside the allocated set is empty and takes no memory.
 struct State {
@@ -44,6 +52,7 @@ struct State {
 #define FIELD(type, name, per, components, unit, meaning) std::vector<type> name;
 #include "kernels/fields.def"
 
+    AwakeItems awake;
     FieldSet wanted;                                         ///< The fields that are in use.
 
     State() = default;

@@ -52,10 +52,10 @@ typename Traits::Args bound(State& state, const Params& params, bool projected =
 }
 
 template <class Traits>
-void run_stage(State& state, const Params& params)
+void run_stage(State& state, const Params& params, const Items& items)
 {
     if constexpr (!std::is_null_pointer_v<decltype(Traits::stage)>)
-        launch<Traits::stage>(Traits::count(state.size), bound<Traits>(state, params));
+        launch<Traits::stage>(items, bound<Traits>(state, params));
 }
 
 template <class Traits>
@@ -71,18 +71,21 @@ Term describe()
             .item_count = Traits::count,
             .add_force =
                 [](State& state, const Params& params) {
-                    run_stage<Traits>(state, params);
-                    launch<Traits::force>(Traits::count(state.size), bound<Traits>(state, params));
+                    const Items items = items_of(state, Traits::per);
+                    run_stage<Traits>(state, params, items);
+                    launch<Traits::force>(items, bound<Traits>(state, params));
                 },
             .add_stiffness =
                 [](State& state, const Params& params, bool projected) {
-                    run_stage<Traits>(state, params);
-                    launch<Traits::stiffness>(Traits::count(state.size), bound<Traits>(state, params, projected));
+                    const Items items = items_of(state, Traits::per);
+                    run_stage<Traits>(state, params, items);
+                    launch<Traits::stiffness>(items, bound<Traits>(state, params, projected));
                 },
             .energy =
                 [](State& state, const Params& params) {
-                    run_stage<Traits>(state, params);
-                    return launch_sum<Traits::energy>(Traits::count(state.size), bound<Traits>(state, params));
+                    const Items items = items_of(state, Traits::per);
+                    run_stage<Traits>(state, params, items);
+                    return launch_sum<Traits::energy>(items, bound<Traits>(state, params));
                 }};
 }
 
@@ -92,7 +95,48 @@ Term describe()
         fields.set(std::size_t(Field::kind##_slot));                     \
     }
 
+// Planes of a field of which only some items are to be cleared.
+void clear_items(std::vector<real>& field, int stride, const Items& items)
+{
+    const int planes = stride > 0 ? int(field.size()) / stride : 0;
+    for_each_item(items, [to = field.data(), planes, stride](int item) {
+        for (int p = 0; p < planes; ++p) to[p * stride + item] = 0;
+    });
+}
+
+// The same for blocks of nine.
+void clear_items(std::vector<block_real>& field, int stride, const Items& items)
+{
+    const int blocks = stride > 0 ? int(field.size()) / (9 * stride) : 0;
+    for_each_item(items, [to = field.data(), blocks, stride](int item) {
+        for (int b = 0; b < blocks; ++b)
+            for (int c = 0; c < 9; ++c) to[9 * (b * stride + item) + c] = 0;
+    });
+}
+
+template <class Number>
+void clear_slots(std::vector<Number>& field, int stride, const Items& items)
+{
+    if (items.list)
+        clear_items(field, stride, items);
+    else
+        for_each_item(int(field.size()), [to = field.data()](int i) { to[i] = 0; });
+}
+
 }  // namespace
+
+Items items_of(const State& state, ItemKind kind)
+{
+    const AwakeItems& awake = state.awake;
+    switch (kind) {
+#define AWAKE(kind) \
+    case ItemKind::kind: return awake.all ? Items{state.size.kind##_count} : Items{int(awake.kind.size()), awake.kind.data()};
+        AWAKE(vertex) AWAKE(face) AWAKE(hinge) AWAKE(stitch) AWAKE(spring)
+#undef AWAKE
+    case ItemKind::pair: break;   // few, and between those awake and those asleep
+    }
+    return {state.size.pair_count};
+}
 
 std::span<const Term> all_terms()
 {
@@ -121,22 +165,17 @@ FieldSet required_fields(const Params& params)
 
 void clear_forces(State& state)
 {
-    const auto clear = [](std::vector<real>& field) {
-        for_each_item(int(field.size()), [to = field.data()](int i) { to[i] = 0; });
-    };
-    clear(state.force);
-#define CLEAR(kind, corners) clear(state.kind##_force);
+    clear_slots(state.force, state.size.vertex_stride, items_of(state, ItemKind::vertex));
+#define CLEAR(kind, corners) clear_slots(state.kind##_force, state.size.kind##_stride, items_of(state, ItemKind::kind));
     GATHERED_KINDS(CLEAR)
 #undef CLEAR
 }
 
 void clear_stiffness(State& state)
 {
-    const auto clear = [](std::vector<block_real>& field) {
-        for_each_item(int(field.size()), [to = field.data()](int i) { to[i] = 0; });
-    };
-    clear(state.vertex_stiffness);
-#define CLEAR(kind, corners) clear(state.kind##_stiffness);
+    clear_slots(state.vertex_stiffness, state.size.vertex_stride, items_of(state, ItemKind::vertex));
+#define CLEAR(kind, corners) \
+    clear_slots(state.kind##_stiffness, state.size.kind##_stride, items_of(state, ItemKind::kind));
     GATHERED_KINDS(CLEAR)
 #undef CLEAR
 }
@@ -144,7 +183,7 @@ void clear_stiffness(State& state)
 void add_pair_diagonals(State& state)
 {
     if (state.size.pair_count == 0) return;
-    launch<pair_diagonal>(state.size.vertex_count,
+    launch<pair_diagonal>(items_of(state, ItemKind::vertex),
                           pair_diagonal_args{pair_list_of(state), state.vertex_stiffness.data()});
 }
 
@@ -152,7 +191,7 @@ void gather_forces(State& state)
 {
 #define GATHER(kind, corners)                                                                                  \
     if (!state.kind##_force.empty())                                                                           \
-        launch<gather_force>(state.size.vertex_count,                                                          \
+        launch<gather_force>(items_of(state, ItemKind::vertex),                                                        \
                              gather_args{state.kind##_slots.data(), state.kind##_slot.data(),                  \
                                          state.kind##_force.data(), state.force.data(),                        \
                                          state.size.vertex_stride, state.size.kind##_stride});

@@ -2,6 +2,7 @@
 #include <span>
 #include <string_view>
 
+#include "host/solver/launch.hpp"
 #include "host/solver/params.hpp"
 #include "host/solver/state.hpp"
 
@@ -30,6 +31,9 @@ std::span<const Term> all_terms();
 /// Returns the fields a scene with these parameters needs: positions, masses, and the union over its active
 /// terms and rules with their gather lists. A term whose strengths are all zero adds no field here and no launch to a step.
 FieldSet required_fields(const Params& params);
+
+/// The items of a kind that take part in the steps at present.
+Items items_of(const State& state, ItemKind kind);
 
 /// Returns the name of an item kind.
 std::string_view kind_name(ItemKind kind);

@@ -218,6 +218,28 @@ class Interrupted(Folder):
     def test_bending_hysteresis_goes_on_bit_by_bit(self):
         self.check_bit_by_bit("--set", "bending.hysteresis=true", "--set", "sheet.fabric=matsudaira_cotton_broad")
 
+    def test_a_cloth_that_sleeps_in_places_goes_on_bit_by_bit(self):
+        """A sheet falls on a ball beside one that lies on the floor: the checkpoint is taken while that sleeps."""
+        scene_file = self.path("places.toml")
+        with open(scene_file, "w") as file:
+            file.write("""
+sheet = [{width = 0.8, height = 0.8, resolution = 33, fabric = "cotton", center = [-0.7, 0, 0.0012]},
+         {width = 0.3, height = 0.3, resolution = 13, fabric = "cotton", center = [0.2, 0, 0.24]}]
+body = [{name = "floor", shape = "plane"}, {name = "ball", shape = "sphere", radius = 0.1, center = [0.2, 0, 0.11]}]
+solver = {until = "equilibrium"}
+""")
+        scene = [scene_file, "--set", "output.precision=lossless"]
+        self.interrupt(scene, signal.SIGINT, self.progressed("drape", 15))
+        with h5py.File(self.path("checkpoint.h5"), "r") as file:
+            names = []
+            file.visit(names.append)
+        self.assertTrue(any(name.endswith("is_awake") for name in names), names)
+        result = run(self.folder, scene, "--resume")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = run(self.path("reference"), scene)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        np.testing.assert_array_equal(last_positions(self.folder), last_positions(self.path("reference")))
+
     def test_a_request_to_terminate(self):
         self.interrupt(SHEET, signal.SIGTERM, self.progressed("drape", 10))
         self.check_resumed(SHEET)
