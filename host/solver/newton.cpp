@@ -100,12 +100,12 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
     if (!contact_ && !cloth_) return -promised_;
     free_direction_ = direction_;
     if (contact_) keep_outside_bodies();
-    if (dot3(state_, downhill_, direction_) <= 0) direction_ = free_direction_;
+    if (dot3(state_, downhill_, direction_) <= 0) take_free_direction();
     if (cloth_) {
         scale_to_longest(options);
         clear_way(false);
         if (dot3(state_, downhill_, direction_) <= 0) {
-            direction_ = free_direction_;
+            take_free_direction();
             scale_to_longest(options);
             clear_way(true);
         }
@@ -128,7 +128,12 @@ void Newton::clear_way(bool uniform)
 void Newton::scale_to_longest(const NewtonOptions& options)
 {
     const double fraction = longest_fraction(options);
-    if (fraction < 1) for_each_item(int(direction_.size()), [d = direction_.data(), fraction](int i) { d[i] *= fraction; });
+    if (fraction < 1) scale_direction(fraction);
+}
+
+void Newton::scale_direction(double by)
+{
+    for_each_item(int(direction_.size()), [d = direction_.data(), by](int i) { d[i] *= by; });
 }
 
 // Moves to base + fraction * direction.
@@ -151,6 +156,24 @@ void Newton::keep_outside_bodies()
                               limit_step_args{state_.pos.data(), state_.contact_normal.data(),
                                               state_.contact_offset.data(), direction_.data(),
                                               state_.size.vertex_stride});
+}
+
+// The direction as it was found, short enough as a whole that no vertex passes its plane: cutting vertices one by one has
+// turned it uphill.
+void Newton::take_free_direction()
+{
+    direction_ = free_direction_;
+    if (!contact_) return;
+    const int vs = state_.size.vertex_stride;
+    const double excess = max_items(state_.size.vertex_count, [this, vs](int v) {
+        double gap = -state_.contact_offset[v], approach = 0;
+        for (int i = v; i < 3 * vs; i += vs) {
+            gap += state_.contact_normal[i] * state_.pos[i];
+            approach -= state_.contact_normal[i] * direction_[i];
+        }
+        return gap > 0 ? approach / (gap * LIMIT_STEP_PART) : 0;
+    });
+    if (excess > 1) scale_direction(1 / excess);
 }
 
 // Starts a step from where it was, from where the cloth would fly on its own, or from what its motion so far lets

@@ -90,6 +90,8 @@ private:
     void follow_pins(std::vector<real>& move);
     bool advance_held();
     void clear_way(bool uniform);
+    void take_free_direction();
+    void scale_direction(double by);
     void scale_to_longest(const NewtonOptions& options);
     void guess_step(const NewtonOptions& options, const std::vector<real>* expected);
     NewtonReport iterate(const NewtonOptions& options, bool settle_each);

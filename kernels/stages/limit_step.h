@@ -1,9 +1,11 @@
 // Keeps a search direction from carrying a vertex through the tangent plane of its nearest body surface.
-//     g = n . x - offset > 0:   if n . d < -0.9 g, then d gets the normal part -0.9 g n
+//     g = n . x - offset > 0:   if n . d < -p g, then d gets the normal part -p g n
 // What a vertex may lose per iteration is a fraction of its gap, so the barrier is met before the surface is.
 // Source: the step limit of incremental potential contact (Li and others 2020), per vertex and for planes.
 #pragma once
 #include "../portable.h"
+
+#define LIMIT_STEP_PART REAL(0.9)   // of a vertex's gap: what one move may take
 
 typedef struct {
     GLOBAL const real* RESTRICT pos;
@@ -17,7 +19,7 @@ KERNEL_FN void limit_step_vertex(int vertex, const limit_step_args* a)
 {
     vec3 n = load3(a->normal, a->stride, vertex), d = load3(a->direction, a->stride, vertex);
     real gap = dot(n, load3(a->pos, a->stride, vertex)) - a->offset[vertex];
-    real excess = larger(gap, REAL(0)) * REAL(-0.9) - dot(n, d);
+    real excess = larger(gap, REAL(0)) * -LIMIT_STEP_PART - dot(n, d);
     if (gap > REAL(0) && excess > REAL(0) && dot(n, n) > REAL(0))
         store3(a->direction, a->stride, vertex, d + excess * n);
 }
