@@ -37,6 +37,7 @@ void read_run(const std::string& path, ChildRun& run)
     const Hdf5File file(path, Hdf5Access::read);
     if (!file.exists("/selvage/profile")) return;
     run.phases = file.texts("/selvage/profile", "phase");
+    run.self_s = file.read_reals("/selvage/profile/self_s");
     for (std::int64_t launches : file.read_integers("/selvage/profile/launches")) run.launches += launches;
 }
 

@@ -28,6 +28,7 @@ struct ChildRun {
     nlohmann::json summary;                 ///< summary.json; null if the run left none.
     int contacts = 0;                       ///< At the end, of run.h5.
     std::vector<std::string> phases;        ///< Of a profiled run: every phase by its path,
+    std::vector<double> self_s;             ///< the time of each without those within it,
     std::int64_t launches = 0;              ///< and its launches.
     std::string errors;                     ///< What it printed on stderr.
 

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct ScalingScene {
-    std::string name, until;
+    std::string name, builtin, until;
     /// The override that gives about so many vertices.
     std::string (*resolution)(int vertices);
 };
@@ -36,11 +36,15 @@ std::string sheet_resolution(int vertices)
     return fmt::format("sheet.resolution={}", std::lround(std::sqrt(double(vertices))));
 }
 
+// Eight layers, as of a cloth that has been folded three times.
+std::string layer_resolution(int vertices) { return sheet_resolution(vertices / 8); }
+
 const std::vector<ScalingScene>& scaling_scenes()
 {
-    static const std::vector<ScalingScene> all = {{"hanging", "equilibrium", sheet_resolution},
-                                                  {"sphere", "0.5", sheet_resolution},
-                                                  {"tshirt", "equilibrium", garment_resolution}};
+    static const std::vector<ScalingScene> all = {{"hanging", "hanging", "equilibrium", sheet_resolution},
+                                                  {"sphere", "sphere", "0.5", sheet_resolution},
+                                                  {"layers", "stress_stack", "0.2", layer_resolution},
+                                                  {"tshirt", "tshirt", "equilibrium", garment_resolution}};
     return all;
 }
 
@@ -57,7 +61,24 @@ struct ScalingPoint {
     ChildRun run;
     double number(const char* key) const { return run.summary.is_null() || run.summary[key].is_null() ? 0 : run.summary[key].get<double>(); }
     double vertices() const { return number("vertices"); }
+    double step_s() const { return number("steps") > 0 ? number("wall_s") / number("steps") : 0; }
+    double contact_share() const;   ///< Of the time of all phases [1].
 };
+
+// What finds contacts and clears ways, and the terms of contact and friction.
+double ScalingPoint::contact_share() const
+{
+    double all = 0, contact = 0;
+    for (std::size_t k = 0; k < run.phases.size(); ++k) {
+        const std::string name = run.phases[k].substr(run.phases[k].rfind('/') + 1);
+        const bool meets = name.find("contact") != std::string::npos || name.find("friction") != std::string::npos ||
+                           name.find("repulsion") != std::string::npos || name == "body_query" || name == "advance_held" ||
+                           name == "cloth_tree" || name == "look_around";
+        all += run.self_s[k];
+        contact += meets ? run.self_s[k] : 0;
+    }
+    return all > 0 ? contact / all : 0;
+}
 
 // What is plotted and fitted.
 struct Quantity {
@@ -67,6 +88,7 @@ struct Quantity {
 
 constexpr Quantity quantities[] = {
     {"wall_s", "wall time [s]", [](const ScalingPoint& p) { return p.number("wall_s"); }},
+    {"step_s", "time per step [s]", [](const ScalingPoint& p) { return p.step_s(); }},
     {"peak_memory_bytes", "peak memory [MiB]", [](const ScalingPoint& p) { return p.run.peak_memory_bytes / (1 << 20); }},
     {"newton_iterations", "Newton iterations", [](const ScalingPoint& p) { return p.number("newton_iterations"); }},
     {"linear_iterations", "linear iterations", [](const ScalingPoint& p) { return p.number("linear_iterations"); }},
@@ -119,7 +141,7 @@ ScalingOptions read_scaling_options(const std::vector<std::string>& arguments)
         if (name == "--max-seconds") options.max_seconds = read_number(name, value, 1.0, 1e6, "seconds from 1 to 1e6");
     }
     if (!options.scene.empty() && std::find(names.begin(), names.end(), options.scene) == names.end())
-        throw InputError({"", 0, 0, "--scene"}, "`" + options.scene + "`", "hanging, sphere or tshirt",
+        throw InputError({"", 0, 0, "--scene"}, "`" + options.scene + "`", "hanging, sphere, layers or tshirt",
                          nearest_name(options.scene, names));
     if (options.max_vertices < options.min_vertices)
         throw InputError({"", 0, 0, "--max-vertices"}, std::to_string(options.max_vertices),
@@ -132,7 +154,7 @@ ScalingOptions read_scaling_options(const std::vector<std::string>& arguments)
 ScalingPoint measure(const ScalingOptions& options, const ScalingScene& scene, int vertices, int threads)
 {
     const std::string until = options.until.empty() ? scene.until : options.until;
-    const std::vector<std::string> arguments = {"builtin:" + scene.name,
+    const std::vector<std::string> arguments = {"builtin:" + scene.builtin, "--profile",
                                                 "--threads", std::to_string(threads),
                                                 "--set", scene.resolution(vertices),
                                                 "--set", "solver.until=" + (until == "equilibrium" ? "\"equilibrium\"" : until),
@@ -150,12 +172,12 @@ ScalingPoint measure(const ScalingOptions& options, const ScalingScene& scene, i
 std::string csv_text(const std::vector<ScalingPoint>& points)
 {
     std::string text = "scene,until,threads,vertices,wall_s,process_s,cpu_s,peak_memory_bytes,newton_iterations,"
-                       "linear_iterations,contacts,residual,exit_code\n";
+                       "linear_iterations,contacts,residual,exit_code,step_s,contact_share\n";
     for (const ScalingPoint& p : points)
-        text += fmt::format("{},{},{},{:.0f},{:.6g},{:.6g},{:.6g},{:.0f},{:.0f},{:.0f},{},{:.4g},{}\n", p.scene, p.until,
+        text += fmt::format("{},{},{},{:.0f},{:.6g},{:.6g},{:.6g},{:.0f},{:.0f},{:.0f},{},{:.4g},{},{:.4g},{:.3f}\n", p.scene, p.until,
                             p.threads, p.vertices(), p.number("wall_s"), p.run.wall_s, p.run.cpu_s,
                             p.run.peak_memory_bytes, p.number("newton_iterations"), p.number("linear_iterations"),
-                            p.run.contacts, p.number("residual"), p.run.exit_code);
+                            p.run.contacts, p.number("residual"), p.run.exit_code, p.step_s(), p.contact_share());
     return text;
 }
 
@@ -184,6 +206,7 @@ Json json_report(const std::vector<ScalingPoint>& points)
         run["vertices"] = p.vertices();
         for (const Quantity& quantity : quantities) run[quantity.name] = quantity.of(p);
         run["peak_memory_bytes"] = p.run.peak_memory_bytes;
+        run["contact_share"] = p.contact_share();
         run["residual"] = p.number("residual");
         run["finished"] = p.run.finished();
         report["benchmarks"].push_back(std::move(run));
@@ -208,14 +231,16 @@ Image diagram(const std::vector<ScalingPoint>& points)
 
 std::string table(const std::vector<ScalingPoint>& points)
 {
-    std::string text = fmt::format("{:<10} {:>8} {:>10} {:>10} {:>12} {:>8} {:>8} {:>9} {:>10}\n", "scene", "threads",
-                                   "vertices", "wall s", "memory MiB", "Newton", "linear", "contacts", "residual");
+    std::string text = fmt::format("{:<10} {:>8} {:>10} {:>10} {:>12} {:>8} {:>8} {:>9} {:>10} {:>9} {:>8}\n", "scene", "threads",
+                                   "vertices", "wall s", "memory MiB", "Newton", "linear", "contacts", "residual",
+                                   "ms/step", "contact");
     for (const ScalingPoint& p : points)
-        text += fmt::format("{:<10} {:>8} {:>10.0f} {:>10.2f} {:>12.1f} {:>8.0f} {:>8.0f} {:>9} {:>10.2e}{}\n", p.scene,
+        text += fmt::format("{:<10} {:>8} {:>10.0f} {:>10.2f} {:>12.1f} {:>8.0f} {:>8.0f} {:>9} {:>10.2e} {:>9.1f} {:>7.0f}%{}\n", p.scene,
                             p.threads, p.vertices(), p.number("wall_s"), p.run.peak_memory_bytes / (1 << 20),
                             p.number("newton_iterations"), p.number("linear_iterations"), p.run.contacts,
-                            p.number("residual"), p.run.finished() ? "" : fmt::format("  not finished (exit code {})", p.run.exit_code));
-    text += "\ngrowth exponents against vertices\n";
+                            p.number("residual"), 1e3 * p.step_s(), 100 * p.contact_share(), p.run.finished() ? "" : fmt::format("  not finished (exit code {})", p.run.exit_code));
+    text += "contact: share of the time of all phases in finding contacts, clearing ways, and forces of contact and friction\n"
+            "\ngrowth exponents against vertices\n";
     for (const std::string& name : series_names(points)) {
         text += fmt::format("{:<24}", name);
         for (const Quantity& quantity : quantities) {

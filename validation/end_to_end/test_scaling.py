@@ -44,7 +44,7 @@ class Skip(unittest.TestCase):
             feature, state = run["name"].split("/")
             states.setdefault(feature, {})[state] = run
         self.assertLessEqual({"body", "friction", "embree", "damping", "hysteresis", "curves", "seams",
-                              "self-contact", "frames", "picture"}, set(states))
+                              "self-contact", "sleep", "frames", "picture"}, set(states))
         for feature, of in states.items():
             with self.subTest(feature):
                 self.assertFalse(of["absent"]["in_use"])
