@@ -9,7 +9,7 @@ constexpr int nap = 8;                // steps until all wake and are looked at 
 constexpr int rings = 3;              // of faces around what moves that stay awake
 constexpr double hardly = 0.04;       // of the fastest vertex' speed
 constexpr double balanced = 0.1;      // of the mean of |f|^2
-constexpr double worth_while = 0.4;   // part of the vertices: where more move all may be about to
+constexpr double worth_while = 0.25;  // part of the vertices: where more move all may be about to
 
 double squared(const std::vector<real>& field, int stride, int v)
 {
