@@ -11,10 +11,6 @@ void flush_subnormals()
 #if defined(__SSE3__)
     _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
     _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-#elif defined(__aarch64__)
-    unsigned long long mode;
-    asm volatile("mrs %0, fpcr" : "=r"(mode));
-    asm volatile("msr fpcr, %0" ::"r"(mode | 1ull << 24));
 #endif
 }
 
