@@ -147,6 +147,7 @@ EquilibriumOptions DrapeRun::draping_options()
     options.step.error = scene_.solver.step_error;
     options.step.unstable = scene_.solver.unstable_step == "refuse" ? UnstableStep::refuse : UnstableStep::shrink;
     options.integrator = integrator_.get();
+    options.hurries = scene_.solver.integrator != "bdf2";   // who asks for it asks for the whole motion
     options.tolerance = scene_.solver.tolerance;
     options.max_time = scene_.solver.max_time;
     options.newton_iterations = scene_.solver.newton_iterations;

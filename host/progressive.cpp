@@ -79,7 +79,10 @@ bool drape_stage(Stage& stage, bool sews, const std::vector<Vec3>& positions, co
             end = sew_stage(stage, profile, hear);
         else
             stage.start(stage.plan.phases.back(), positions, profile);
-        if (end == PhaseEnd::reached) end = drape_to_equilibrium(*stage.phase, options, progress, hear);
+        const std::unique_ptr<Integrator> integrator = make_integrator(integrator_of(stage.scene), *stage.phase);
+        EquilibriumOptions own = options;
+        own.integrator = integrator.get();
+        if (end == PhaseEnd::reached) end = drape_to_equilibrium(*stage.phase, own, progress, hear);
         if (end == PhaseEnd::stopped) return false;
         report.used = end == PhaseEnd::reached || !sews;
         report.residual = stage.phase->newton().static_residual();
@@ -112,10 +115,10 @@ std::size_t levels_used(const Scene& scene, const SceneModel& model)
 
 std::string why_no_coarse_start(const Scene& scene, const SceneModel& model)
 {
-    const std::string integrator = integrator_of(scene);
+    const std::string& integrator = scene.solver.integrator;
     if (!scene.solver.progressive) return "solver.progressive is false";
     if (scene.solver.until != "equilibrium") return "the run shows a motion (solver.until)";
-    if (integrator != "implicit_euler" && integrator != "static") return "solver.integrator asks for another way to rest";
+    if (integrator != "automatic" && integrator != "implicit_euler" && integrator != "static") return "solver.integrator asks for another way to rest";
     if (scene.moves()) return "held vertices or bodies move, and the cloth has to follow";
     if (!scene.has_garment() && !model.model.bodies.empty())
         return "there are bodies, and what the cloth meets first decides where it lies";
@@ -143,8 +146,6 @@ std::vector<Vec3> carry_over(const Cloth& fine, const Transfer& transfer, const 
 CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, const EquilibriumOptions& options,
                                DrapeProgress& progress, Profile& profile, const AfterStep& after_step)
 {
-    EquilibriumOptions coarse = options;
-    coarse.integrator = nullptr;
     CoarseStart start;
     for (std::size_t level = levels_used(scene, model); level-- > 0;) {
         const TraceScope scope("coarse_" + std::to_string(level + 1));
@@ -153,7 +154,7 @@ CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, cons
         const Cloth &own = stage.model.model.cloth, &finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
         const bool carried = !start.positions.empty();
         CoarseStage report{.vertices = int(own.positions.size())};
-        start.stopped = !drape_stage(stage, model.sews && !carried, carried ? start.positions : own.positions, coarse,
+        start.stopped = !drape_stage(stage, model.sews && !carried, carried ? start.positions : own.positions, options,
                                      progress, profile, after_step, report);
         if (start.stopped) return start;
         if (report.used) {

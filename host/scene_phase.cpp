@@ -45,8 +45,9 @@ std::string integrator_of(const Scene& scene)
     // Cloth that folds on bodies takes BDF2 twice the iterations of implicit Euler; where the motion counts it is worth them.
     if (scene.solver.until != "equilibrium") return scene.bodies.empty() ? "bdf2" : "implicit_euler";
     // Where rest depends on the way there, or the steps are to follow an estimate of their error, the way is a motion.
-    const bool any_way = scene.bodies.empty() && !scene.bending.hysteresis && !scene.solver.adaptive;
-    return any_way ? "static" : "implicit_euler";
+    if (scene.bending.hysteresis || scene.solver.adaptive) return "implicit_euler";
+    if (scene.bodies.empty()) return "static";
+    return scene.moves() || scene.solver.load_steps > 1 ? "implicit_euler" : "bdf2";
 }
 
 }  // namespace selvage

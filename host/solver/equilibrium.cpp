@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host/solver/sleep.hpp"
 
@@ -12,6 +13,7 @@ constexpr int relax_chunk = 5;      // static iterations between two looks at in
 constexpr int relax_chunks = 12;
 constexpr double first_load = 0.05;   // part of the weight at the first of several load steps
 constexpr int steps_between = 8;    // motion after a static attempt that did not reach the tolerance
+constexpr double too_early = 0.05;  // residual above which an attempt must not meet negative curvature all the time
 constexpr double stride = 2;        // steps towards rest, of those of a motion: only where they lead counts
 
 // What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
@@ -48,6 +50,7 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
     newton.full_stiffness = true;
     newton.stop = &options.stop;
     const SavedShape start = shape_of(phase);
+    const double began = progress.residual;
     double best = 1e300;
     for (int chunk = 0; chunk < relax_chunks; ++chunk) {
         const NewtonReport report = phase.newton().relax(newton);
@@ -57,8 +60,10 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
         }
         if (report.converged) return PhaseEnd::reached;
         const bool buckles = report.blind == report.iterations && report.iterations > 0;   // inertia has to lead it on
-        if (chunk + 1 == relax_chunks || report.stuck || buckles) progress.residual = report.residual;
-        if (report.stuck || buckles || (chunk > 3 && report.residual > 0.8 * best)) return PhaseEnd::time_limit;
+        const bool unstable = chunk == 0 && report.negative == report.iterations && began > too_early;
+        const bool ends = report.stuck || buckles || unstable;
+        if (chunk + 1 == relax_chunks || ends) progress.residual = report.residual;
+        if (ends || (chunk > 3 && report.residual > 0.8 * best)) return PhaseEnd::time_limit;
         best = std::min(best, report.residual);
     }
     return PhaseEnd::time_limit;
@@ -95,7 +100,7 @@ StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
 // Friction remembers the way, though: who lets the weight grow in steps asks for a way that is followed.
 bool may_hurry(const Integrator& integrator, const EquilibriumOptions& options)
 {
-    return !integrator.info().is_explicit && integrator.info().order <= 1 && !options.step.adaptive &&
+    return options.hurries && !integrator.info().is_explicit && integrator.info().order <= 2 && !options.step.adaptive &&
            options.load_steps == 1;
 }
 
@@ -113,46 +118,95 @@ PhaseEnd rest_of_all(Phase& phase, const EquilibriumOptions& options, DrapeProgr
     return progress.residual <= options.tolerance ? PhaseEnd::reached : PhaseEnd::time_limit;
 }
 
-// Rest under the present weight.
-PhaseEnd come_to_rest(Phase& phase, Integrator& integrator, const EquilibriumOptions& options, DrapeProgress& progress,
-                      const AfterStep& after_step)
-{
-    const bool hurries = may_hurry(integrator, options);
-    StepOptions steps = starting_at(progress.time, options.step);
-    if (hurries) steps.longest *= stride;
-    StepControl control(phase, integrator, steps);
-    if (progress.dt > 0) control.set_dt(progress.dt);
-    NewtonOptions newton;
-    newton.stop = &options.stop;
-    newton.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
-    for (;;) {
-        if (nearly_balanced(phase, options, progress)) {
-            const bool was_part = progress.asleep > 0;
-            PhaseEnd end = relax(phase, options, progress, after_step);
-            if (end == PhaseEnd::stopped) return end;
-            if (was_part && end == PhaseEnd::reached) end = rest_of_all(phase, options, progress);
-            wake_all(phase, progress);
-            if (end == PhaseEnd::reached) return end;
-            integrator.restart();
-            if (was_part && progress.residual <= 10 * options.tolerance) continue;   // the rest is near its place
-            progress.switch_residual = std::max(0.5 * progress.switch_residual, 2 * options.tolerance);
-            progress.hold = steps_between;
-        }
-        if (progress.time >= options.max_time) {
-            wake_all(phase, progress);
-            return PhaseEnd::time_limit;
-        }
-        const bool follows = progress.time < phase.motion_end();   // bodies or pins, whose way counts
-        newton.max_iterations = std::min(options.newton_iterations, hurries && !follows ? 1 : 3);
-        progress.time += control.advance(follows ? options.step.longest : steps.longest, newton, false);
-        if (control.report().broken_off) return PhaseEnd::stopped;
-        progress.dt = control.dt();
-        progress.residual = phase.newton().static_residual();
-        if (hurries && !follows && options.sleeps) rest_in_places(phase, progress.asleep);
-        --progress.hold;
-        if (!after_step(event_of(control, progress))) return PhaseEnd::stopped;
+// The way to rest under the present weight.
+class WayToRest {
+public:
+    WayToRest(Phase& phase, Integrator& integrator, const EquilibriumOptions& options, DrapeProgress& progress,
+              const AfterStep& after_step)
+        : phase_(phase), integrator_(integrator), options_(options), progress_(progress), after_step_(after_step),
+          hurries_(may_hurry(integrator, options))
+    {
+        newton_.stop = &options.stop;
+        newton_.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
+        choose_steps();
+        if (progress.dt > 0) control_->set_dt(progress.dt);
     }
-}
+
+    PhaseEnd go()
+    {
+        for (;;) {
+            if (nearly_balanced(phase_, options_, progress_)) {
+                const std::optional<PhaseEnd> end = try_statics();
+                if (end) return *end;
+            }
+            if (progress_.time >= options_.max_time) {
+                wake_all(phase_, progress_);
+                return PhaseEnd::time_limit;
+            }
+            if (!step()) return PhaseEnd::stopped;
+        }
+    }
+
+private:
+    // Cloth that falls and swings is followed until its forces first nearly balance. Hurried steps are so stiff that they
+    // would creep where momentum carries the cloth on, and end in higher folds.
+    bool swings() const
+    {
+        return hurries_ && integrator_.info().order > 1 && progress_.switch_residual >= DrapeProgress{}.switch_residual;
+    }
+
+    void choose_steps()
+    {
+        StepOptions steps = starting_at(progress_.time, options_.step);
+        const bool hurries = hurries_ && !swings();
+        if (hurries) steps.longest *= stride;
+        if (hurries && integrator_.info().order > 1) hurried_ = make_integrator("implicit_euler", phase_);
+        control_.emplace(phase_, hurried_ ? *hurried_ : integrator_, steps);
+        longest_ = steps.longest;
+    }
+
+    // Returns how the way ends, if it does.
+    std::optional<PhaseEnd> try_statics()
+    {
+        const bool was_part = progress_.asleep > 0, swung = swings();
+        PhaseEnd end = relax(phase_, options_, progress_, after_step_);
+        if (end == PhaseEnd::stopped) return end;
+        if (was_part && end == PhaseEnd::reached) end = rest_of_all(phase_, options_, progress_);
+        wake_all(phase_, progress_);
+        if (end == PhaseEnd::reached) return end;
+        integrator_.restart();
+        if (was_part && progress_.residual <= 10 * options_.tolerance) return {};   // the rest is near its place
+        progress_.switch_residual = std::max(0.5 * progress_.switch_residual, 2 * options_.tolerance);
+        progress_.hold = steps_between;
+        if (swung) choose_steps();
+        return {};
+    }
+
+    bool step()
+    {
+        const bool follows = progress_.time < phase_.motion_end();   // bodies or pins, whose way counts
+        const bool hurries = hurries_ && !follows && !swings();
+        newton_.max_iterations = std::min(options_.newton_iterations, hurries ? 1 : 3);
+        progress_.time += control_->advance(follows ? options_.step.longest : longest_, newton_, false);
+        if (control_->report().broken_off) return false;
+        progress_.dt = control_->dt();
+        progress_.residual = phase_.newton().static_residual();
+        if (hurries && options_.sleeps) rest_in_places(phase_, progress_.asleep);
+        --progress_.hold;
+        return after_step_(event_of(*control_, progress_));
+    }
+
+    Phase& phase_;
+    Integrator& integrator_;
+    const EquilibriumOptions& options_;
+    DrapeProgress& progress_;
+    const AfterStep& after_step_;
+    const bool hurries_;
+    NewtonOptions newton_;
+    std::unique_ptr<Integrator> hurried_;   // where another one has followed the motion
+    std::optional<StepControl> control_;
+    double longest_ = 0;
+};
 
 }  // namespace
 
@@ -171,7 +225,7 @@ PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, D
         gravity.acceleration_x = part * whole.acceleration_x;
         gravity.acceleration_y = part * whole.acceleration_y;
         gravity.acceleration_z = part * whole.acceleration_z;
-        end = come_to_rest(phase, integrator, options, progress, after_step);
+        end = WayToRest(phase, integrator, options, progress, after_step).go();
         if (end == PhaseEnd::reached && left > 0) progress = DrapeProgress{.time = progress.time, .load = progress.load};
         if (end == PhaseEnd::reached) ++progress.load;
     }

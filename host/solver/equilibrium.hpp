@@ -6,6 +6,8 @@ namespace selvage {
 struct EquilibriumOptions {
     StepOptions step;
     Integrator* integrator = nullptr;   ///< What moves the cloth; null: implicit Euler.
+    bool hurries = true;         ///< What the integrator leaves to do once the forces are nearly balanced, or all with one of
+                                 ///< first order, is done with long steps of implicit Euler that are not solved to the end.
     double tolerance = 1e-3;     ///< Relative static force residual to reach [1].
     double max_time = 30;        ///< Simulated time after which to give up [s].
     int newton_iterations = 12;

@@ -92,6 +92,7 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
         return linear_.solve(downhill_.data(), options.linear_tolerance, direction_.data());
     });
     report.linear_iterations += result.iterations;
+    report.negative += result.negative_curvature;
     report.blind += result.negative_curvature && result.iterations == 0;
     if (dot3(state_, downhill_, direction_) < 0)   // only an indefinite matrix can give this
         for_each_item(int(direction_.size()), [d = direction_.data()](int i) { d[i] = -d[i]; });

@@ -31,6 +31,7 @@ struct NewtonReport {
     bool nearly = false;               ///< Stuck where hardly anything was left to gain.
     int iterations = 0;
     int linear_iterations = 0;
+    int negative = 0;                  ///< Iterations whose linear solve met negative curvature.
     int blind = 0;                     ///< Iterations whose linear solve met negative curvature before its first step.
     double residual = 0;               ///< Gradient norm over the force scale, at the end [1].
 };
