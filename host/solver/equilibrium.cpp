@@ -15,6 +15,7 @@ constexpr double first_load = 0.05;   // part of the weight at the first of seve
 constexpr int steps_between = 8;    // motion after a static attempt that did not reach the tolerance
 constexpr double too_early = 0.05;  // residual above which an attempt must not meet negative curvature all the time
 constexpr double stride = 2;        // steps towards rest, of those of a motion: only where they lead counts
+constexpr double swing_stride = 1.5;   // the same while the cloth swings
 
 // What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
 struct SavedShape {
@@ -159,7 +160,7 @@ private:
     {
         StepOptions steps = starting_at(progress_.time, options_.step);
         const bool hurries = hurries_ && !swings();
-        if (hurries) steps.longest *= stride;
+        if (hurries_) steps.longest *= hurries ? stride : swing_stride;
         if (hurries && integrator_.info().order > 1) hurried_ = make_integrator("implicit_euler", phase_);
         control_.emplace(phase_, hurried_ ? *hurried_ : integrator_, steps);
         longest_ = steps.longest;
@@ -178,7 +179,10 @@ private:
         if (was_part && progress_.residual <= 10 * options_.tolerance) return {};   // the rest is near its place
         progress_.switch_residual = std::max(0.5 * progress_.switch_residual, 2 * options_.tolerance);
         progress_.hold = steps_between;
-        if (swung) choose_steps();
+        if (swung) {
+            progress_.dt = 0;
+            choose_steps();
+        }
         return {};
     }
 
