@@ -14,6 +14,7 @@ constexpr int relax_chunks = 12;
 constexpr double first_load = 0.05;   // part of the weight at the first of several load steps
 constexpr int steps_between = 8;    // motion after a static attempt that did not reach the tolerance
 constexpr double too_early = 0.05;  // residual above which an attempt must not meet negative curvature all the time
+constexpr int patience = 25;        // motion after which one is made again although the forces do not fall further
 constexpr double stride = 2;        // steps towards rest, of those of a motion: only where they lead counts
 constexpr double swing_stride = 1.5;   // the same while the cloth swings
 
@@ -73,8 +74,9 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
 bool nearly_balanced(const Phase& phase, const EquilibriumOptions& options, const DrapeProgress& progress)
 {
     if (progress.time < phase.motion_end()) return false;
-    return progress.residual <= options.tolerance ||
-           (progress.hold <= 0 && progress.residual <= progress.switch_residual);
+    if (progress.residual <= options.tolerance) return true;
+    const bool creeps = progress.hold <= -patience && progress.residual <= DrapeProgress{}.switch_residual;
+    return creeps || (progress.hold <= 0 && progress.residual <= progress.switch_residual);
 }
 
 // The integrator of the options, or one that is made here.
@@ -195,7 +197,11 @@ private:
         if (control_->report().broken_off) return false;
         progress_.dt = control_->dt();
         progress_.residual = phase_.newton().static_residual();
-        if (hurries && options_.sleeps) rest_in_places(phase_, progress_.asleep);
+        if (hurries_ && !follows && options_.sleeps) {
+            const bool all_awake = progress_.asleep == 0;
+            rest_in_places(phase_, progress_.asleep);
+            if (all_awake && progress_.asleep > 0) integrator_.displaced();   // what sleeps has stopped
+        }
         --progress_.hold;
         return after_step_(event_of(*control_, progress_));
     }
