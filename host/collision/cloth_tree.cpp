@@ -42,11 +42,10 @@ void ClothTree::Sweep::clear()
 
 void ClothTree::Sweep::add(const Sweep& other)
 {
-    for (int end = 0; end < 2; ++end)
-        for (int c = 0; c < 4; ++c) {
-            low[end][c] = std::min(low[end][c], other.low[end][c]);
-            high[end][c] = std::max(high[end][c], other.high[end][c]);
-        }
+    for (int end = 0; end < 2; ++end) {
+        low[end] = low[end].min(other.low[end]);
+        high[end] = high[end].max(other.high[end]);
+    }
 }
 
 void ClothTree::Gradients::clear()
@@ -85,13 +84,12 @@ void ClothTree::refit_boxes(bool bodies_move, bool bodies_too)
         const bool still = k >= particles_ && !bodies_move;
         slack_of_[k] = still ? 0 : float(slack_ + slack_of_way * (end_[k] - start_[k]).norm());
         const float grown = slack_of_[k] + float(still ? body_reach_ - 0.5 * reach_ : 0.5 * reach_);
-        corner_box_[k] = {};
-        for (int c = 0; c < 3; ++c)
-            for (int end = 0; end < 2; ++end) {
-                const float x = float((end == 0 ? start_ : end_)[k][c]);
-                corner_box_[k].low[end][c] = x - grown;
-                corner_box_[k].high[end][c] = x + grown;
-            }
+        for (int end = 0; end < 2; ++end) {
+            const Vec3& x = (end == 0 ? start_ : end_)[k];
+            const Sweep::Corner at{float(x[0]), float(x[1]), float(x[2]), 0.0f}, margin{grown, grown, grown, 0.0f};
+            corner_box_[k].low[end] = at - margin;
+            corner_box_[k].high[end] = at + margin;
+        }
     });
     searched_start_ = start_;
     searched_end_ = end_;

@@ -86,20 +86,16 @@ public:
     std::size_t bytes() const;
 
 private:
-    struct alignas(16) Sweep {                  // boxes at both ends of a move; a fourth component pads them
-        using Corner = std::array<float, 4>;
+    struct Sweep {                              // boxes at both ends of a move; a fourth component, always 0, pads them
+        using Corner = Eigen::Array4f;
         std::array<Corner, 2> low, high;
         void clear();
         void add(const Sweep& other);
         bool meets(const Sweep& other) const    // false: they are apart all the way
         {
-            Corner between;
-            for (int c = 0; c < 4; ++c) {
-                const float above = std::min(low[0][c] - other.high[0][c], low[1][c] - other.high[1][c]);
-                const float below = std::min(other.low[0][c] - high[0][c], other.low[1][c] - high[1][c]);
-                between[c] = std::max(above, below);
-            }
-            return std::max(std::max(between[0], between[1]), between[2]) <= 0;
+            const Corner above = (low[0] - other.high[0]).min(low[1] - other.high[1]);
+            const Corner below = (other.low[0] - high[0]).min(other.low[1] - high[1]);
+            return above.max(below).maxCoeff() <= 0;
         }
     };
     struct Gradients {                          // range of the deformation gradients, F by columns
