@@ -53,7 +53,8 @@ picture_width = 800
                        parts.output);
 }
 
-// A small sheet that falls on a ball beside a large one that lies on the floor, to equilibrium.
+// A small sheet that falls on a ball beside a large one that lies on the floor, to equilibrium. With one integrator for all of
+// the way, so that with and without sleep the same is done.
 std::string resting_scene(const SceneParts& parts, int resolution)
 {
     return fmt::format(R"([[sheet]]
@@ -78,6 +79,7 @@ radius = 0.15
 center = [0.3, 0, 0.16]
 [solver]
 until = "equilibrium"
+integrator = "implicit_euler"
 {}
 [output]
 {})",

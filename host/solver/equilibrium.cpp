@@ -43,7 +43,8 @@ void restore(Phase& phase, const SavedShape& saved)
 }
 
 // Minimises the static energy. It never rises, so an attempt that falls short still leaves the cloth nearer to rest.
-PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress, const AfterStep& after_step)
+// @param swung  BDF2 has led here, and saddles are what it leads past: an attempt that finds nothing else at first is given up
+PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress, const AfterStep& after_step, bool swung)
 {
     NewtonOptions newton;
     newton.max_iterations = relax_chunk;
@@ -62,7 +63,7 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
         }
         if (report.converged) return PhaseEnd::reached;
         const bool buckles = report.blind == report.iterations && report.iterations > 0;   // inertia has to lead it on
-        const bool unstable = chunk == 0 && report.negative == report.iterations && began > too_early;
+        const bool unstable = swung && chunk == 0 && report.negative == report.iterations && began > too_early;
         const bool ends = report.stuck || buckles || unstable;
         if (chunk + 1 == relax_chunks || ends) progress.residual = report.residual;
         if (ends || (chunk > 3 && report.residual > 0.8 * best)) return PhaseEnd::time_limit;
@@ -172,7 +173,7 @@ private:
     std::optional<PhaseEnd> try_statics()
     {
         const bool was_part = progress_.asleep > 0, swung = swings();
-        PhaseEnd end = relax(phase_, options_, progress_, after_step_);
+        PhaseEnd end = relax(phase_, options_, progress_, after_step_, hurries_ && integrator_.info().order > 1);
         if (end == PhaseEnd::stopped) return end;
         if (was_part && end == PhaseEnd::reached) end = rest_of_all(phase_, options_, progress_);
         wake_all(phase_, progress_);
