@@ -85,7 +85,7 @@ void add_linear_solver(KernelCloth& cloth, std::vector<KernelCase>& cases)
 
     LinearSolver &one_level = *cloth.block_jacobi, &all_levels = *cloth.multigrid;
     using enum LinearOperation;
-    cases.push_back(operation_case(cloth, "matrix_product", one_level, product, product_bytes(pattern)));
+    cases.push_back(operation_case(cloth, "matrix_product", one_level, product, product_bytes(cloth.state, pattern)));
     cases.push_back(
         operation_case(cloth, "precondition/block_jacobi", one_level, precondition, block_jacobi_bytes(pattern)));
     cases.push_back(operation_case(cloth, "precondition/multigrid", all_levels, precondition,
@@ -134,7 +134,7 @@ std::size_t newton_bytes(const KernelCloth& cloth, const NewtonReport& report, c
                  calls("assemble") * term_bytes(term, state, TermPart::stiffness);
     const std::size_t direction = update_bytes(cloth.pattern) / 2;   // p = z + turn p
     return total + std::size_t(report.linear_iterations) *
-                       (product_bytes(cloth.pattern) + multigrid_bytes(cloth.pattern, cloth.transfers) +
+                       (product_bytes(cloth.state, cloth.pattern) + multigrid_bytes(cloth.pattern, cloth.transfers) +
                         3 * dot_bytes(cloth.pattern) + update_bytes(cloth.pattern) + direction);
 }
 

@@ -79,10 +79,12 @@ bool drape_stage(Stage& stage, bool sews, const std::vector<Vec3>& positions, co
             end = sew_stage(stage, profile, hear);
         else
             stage.start(stage.plan.phases.back(), positions, profile);
-        const std::unique_ptr<Integrator> integrator = make_integrator(integrator_of(stage.scene), *stage.phase);
-        EquilibriumOptions own = options;
-        own.integrator = integrator.get();
-        if (end == PhaseEnd::reached) end = drape_to_equilibrium(*stage.phase, own, progress, hear);
+        if (end == PhaseEnd::reached) {
+            const std::unique_ptr<Integrator> integrator = make_integrator(integrator_of(stage.scene), *stage.phase);
+            EquilibriumOptions own = options;
+            own.integrator = integrator.get();
+            end = drape_to_equilibrium(*stage.phase, own, progress, hear);
+        }
         if (end == PhaseEnd::stopped) return false;
         report.used = end == PhaseEnd::reached || !sews;
         report.residual = stage.phase->newton().static_residual();
@@ -118,7 +120,8 @@ std::string why_no_coarse_start(const Scene& scene, const SceneModel& model)
     const std::string& integrator = scene.solver.integrator;
     if (!scene.solver.progressive) return "solver.progressive is false";
     if (scene.solver.until != "equilibrium") return "the run shows a motion (solver.until)";
-    if (integrator != "automatic" && integrator != "implicit_euler" && integrator != "static") return "solver.integrator asks for another way to rest";
+    if (integrator != "automatic" && integrator != "implicit_euler" && integrator != "static")
+        return "solver.integrator asks for another way to rest";
     if (scene.moves()) return "held vertices or bodies move, and the cloth has to follow";
     if (!scene.has_garment() && !model.model.bodies.empty())
         return "there are bodies, and what the cloth meets first decides where it lies";

@@ -86,7 +86,7 @@ public:
     std::size_t bytes() const;
 
 private:
-    struct Sweep {                              // boxes at both ends of a move; a fourth component, always 0, pads them
+    struct Sweep {                              // boxes at both ends of a move; a fourth component, 0 if not empty, pads them
         using Corner = Eigen::Array4f;
         std::array<Corner, 2> low, high;
         void clear();

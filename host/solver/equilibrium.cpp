@@ -43,8 +43,9 @@ void restore(Phase& phase, const SavedShape& saved)
 }
 
 // Minimises the static energy. It never rises, so an attempt that falls short still leaves the cloth nearer to rest.
-// @param swung  BDF2 has led here, and saddles are what it leads past: an attempt that finds nothing else at first is given up
-PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress, const AfterStep& after_step, bool swung)
+// @param swung  BDF2 has led here: it leads past saddles, so that an attempt which finds only such at first is given up
+PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress, const AfterStep& after_step,
+               bool swung)
 {
     NewtonOptions newton;
     newton.max_iterations = relax_chunk;
@@ -128,7 +129,7 @@ public:
     WayToRest(Phase& phase, Integrator& integrator, const EquilibriumOptions& options, DrapeProgress& progress,
               const AfterStep& after_step)
         : phase_(phase), integrator_(integrator), options_(options), progress_(progress), after_step_(after_step),
-          hurries_(may_hurry(integrator, options))
+          hurries_(may_hurry(integrator, options)), swings_first_(hurries_ && integrator.info().order > 1)
     {
         newton_.stop = &options.stop;
         newton_.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
@@ -154,17 +155,14 @@ public:
 private:
     // Cloth that falls and swings is followed until its forces first nearly balance. Hurried steps are so stiff that they
     // would creep where momentum carries the cloth on, and end in higher folds.
-    bool swings() const
-    {
-        return hurries_ && integrator_.info().order > 1 && progress_.switch_residual >= DrapeProgress{}.switch_residual;
-    }
+    bool swings() const { return swings_first_ && progress_.switch_residual >= DrapeProgress{}.switch_residual; }
 
     void choose_steps()
     {
         StepOptions steps = starting_at(progress_.time, options_.step);
         const bool hurries = hurries_ && !swings();
         if (hurries_) steps.longest *= hurries ? stride : swing_stride;
-        if (hurries && integrator_.info().order > 1) hurried_ = make_integrator("implicit_euler", phase_);
+        if (hurries && swings_first_) hurried_ = make_integrator("implicit_euler", phase_);
         control_.emplace(phase_, hurried_ ? *hurried_ : integrator_, steps);
         longest_ = steps.longest;
     }
@@ -173,7 +171,7 @@ private:
     std::optional<PhaseEnd> try_statics()
     {
         const bool was_part = progress_.asleep > 0, swung = swings();
-        PhaseEnd end = relax(phase_, options_, progress_, after_step_, hurries_ && integrator_.info().order > 1);
+        PhaseEnd end = relax(phase_, options_, progress_, after_step_, swings_first_);
         if (end == PhaseEnd::stopped) return end;
         if (was_part && end == PhaseEnd::reached) end = rest_of_all(phase_, options_, progress_);
         wake_all(phase_, progress_);
@@ -212,9 +210,10 @@ private:
     const EquilibriumOptions& options_;
     DrapeProgress& progress_;
     const AfterStep& after_step_;
-    const bool hurries_;
+    const bool hurries_;          // sooner or later
+    const bool swings_first_;     // with a scheme of second order, which implicit Euler then takes over from
     NewtonOptions newton_;
-    std::unique_ptr<Integrator> hurried_;   // where another one has followed the motion
+    std::unique_ptr<Integrator> hurried_;   // implicit Euler, once it has taken over
     std::optional<StepControl> control_;
     double longest_ = 0;
 };

@@ -6,8 +6,8 @@ namespace selvage {
 struct EquilibriumOptions {
     StepOptions step;
     Integrator* integrator = nullptr;   ///< What moves the cloth; null: implicit Euler.
-    bool hurries = true;         ///< What the integrator leaves to do once the forces are nearly balanced, or all with one of
-                                 ///< first order, is done with long steps of implicit Euler that are not solved to the end.
+    bool hurries = true;         ///< Long steps of implicit Euler that are not solved to the end: from the start with an
+                                 ///< integrator of first order, with one of second once the forces first nearly balance.
     double tolerance = 1e-3;     ///< Relative static force residual to reach [1].
     double max_time = 30;        ///< Simulated time after which to give up [s].
     int newton_iterations = 12;
@@ -27,9 +27,9 @@ struct DrapeProgress {
     int asleep = 0;              ///< Steps for which parts of the cloth will sleep.
 };
 
-/// Lets the cloth fall, by default with implicit steps, which are dissipative, and finishes with Newton's method on the static
-/// energy as soon as the forces are nearly balanced. With several load steps it is let down slowly: what falls at once
-/// may be caught in folds that a drape meter, which lowers its specimen, does not see.
+/// Lets the cloth fall with implicit steps, in the end dissipative ones (see EquilibriumOptions::hurries), and finishes with
+/// Newton's method on the static energy as soon as the forces are nearly balanced. With several load steps it is let down
+/// slowly: what falls at once may be caught in folds that a drape meter, which lowers its specimen, does not see.
 PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
                               const AfterStep& after_step);
 

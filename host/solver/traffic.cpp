@@ -180,7 +180,28 @@ std::size_t assemble_bytes(const State& state, const BlockPattern& pattern)
            2 * diagonal;
 }
 
-std::size_t product_bytes(const BlockPattern& pattern) { return matrix_bytes(pattern) + 2 * vector_bytes(pattern); }
+std::size_t product_bytes(const State& state, const BlockPattern& pattern)
+{
+    const std::size_t vector = vector_bytes(pattern);
+    std::size_t total = matrix_bytes(pattern) + 2 * vector;
+    if (!state.coupling_slots.empty()) {
+        // Turns from slopes, moments from turns, and what these do to vertices; turns and moments are written and read.
+        const std::size_t per_hinge = std::size_t(state.size.hinge_count) * sizeof(double);
+        total += pass_bytes(state, {Field::hinge_vertex, Field::hinge_slope, Field::hinge_rigidity, Field::coupling_slots,
+                                    Field::coupling_hinge, Field::coupling_rigidity, Field::hinge_slots,
+                                    Field::hinge_slot, Field::hinge_slope}) +
+                 4 * per_hinge + 3 * vector;
+    }
+    if (state.size.pair_count > 0) {
+        // Relative places of both kinds of contact, written and read.
+        const std::size_t relative = 6 * std::size_t(state.size.pair_count) * sizeof(double);
+        const auto weights = {Field::pair_weight, Field::pair_held_weight};
+        total += pass_bytes(state, {Field::pair_vertex, Field::pair_slots, Field::pair_slot, Field::pair_stiffness,
+                                    Field::inv_mass}) +
+                 2 * pass_bytes(state, weights) + 2 * relative + 4 * vector;
+    }
+    return total;
+}
 
 std::size_t block_jacobi_bytes(const BlockPattern& pattern) { return (3 + 2) * vector_bytes(pattern); }
 

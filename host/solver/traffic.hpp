@@ -28,7 +28,8 @@ std::size_t body_query_bytes(const State& state);
 
 /// Element and vertex stiffness, gather lists, the matrix written, and the inverse diagonal blocks made from it.
 std::size_t assemble_bytes(const State& state, const BlockPattern& pattern);
-std::size_t product_bytes(const BlockPattern& pattern);
+/// Of the whole product: the matrix, the couplings of plate hinges and the pairs in contact, which do not stand in it.
+std::size_t product_bytes(const State& state, const BlockPattern& pattern);
 std::size_t block_jacobi_bytes(const BlockPattern& pattern);
 std::size_t dot_bytes(const BlockPattern& pattern);
 std::size_t update_bytes(const BlockPattern& pattern);   ///< Of x += a p, r -= a q.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "host/solver/equilibrium.hpp"
+#include "host/solver/integrator.hpp"
 #include "host/solver/phase.hpp"
 #include "host/solver/plan.hpp"
 #include "kernels/repulsion.h"
@@ -141,6 +142,38 @@ TEST_CASE("under the exponential law a sheet rests where its weight is balanced"
         CHECK(sheet.lowest() == Approx(height).epsilon(1e-6));
         CHECK(sheet.highest() == Approx(height).epsilon(1e-6));
     }
+}
+
+TEST_CASE("towards rest BDF2 is followed until an attempt at statics has failed, then implicit Euler hurries", "[response]")
+{
+    Params params;
+    params.body_repulsion.stiffness = 2;
+    params.body_repulsion.gap = gap;
+    const double rest = gap / std::log(std::exp(1.0) + density * g / 2);
+    const auto longest_step = [&](const char* name, double switch_residual, bool hurries) {
+        Landing sheet(params, 0.05);
+        const std::unique_ptr<Integrator> integrator = make_integrator(name, *sheet.phase);
+        EquilibriumOptions options;
+        options.integrator = integrator.get();
+        options.hurries = hurries;
+        options.step.longest = 0.02;
+        options.tolerance = 1e-7;
+        DrapeProgress progress;
+        progress.switch_residual = switch_residual;
+        double longest = 0;
+        const auto hear = [&](const StepEvent& event) {
+            if (progress.switch_residual == switch_residual) longest = std::max(longest, event.dt);
+            return true;
+        };
+        REQUIRE(drape_to_equilibrium(*sheet.phase, options, progress, hear) == PhaseEnd::reached);
+        CHECK(sheet.highest() == Approx(rest).epsilon(1e-6));
+        return longest;
+    };
+    const double before = DrapeProgress{}.switch_residual, after_one = 0.5 * before;
+    CHECK(longest_step("bdf2", before, true) == Approx(0.03));
+    CHECK(longest_step("bdf2", after_one, true) == Approx(0.04));
+    CHECK(longest_step("bdf2", before, false) == Approx(0.02));
+    CHECK(longest_step("implicit_euler", before, true) == Approx(0.04));
 }
 
 TEST_CASE("under the velocity rule a dropped sheet bounces to the height that restitution tells", "[response]")
