@@ -340,6 +340,15 @@ void ClothTree::search()
     keep_asleep();
 }
 
+// Those of a leaf that meet a box.
+ClothTree::FacesNear ClothTree::faces_near(const Node& leaf, const Sweep& box) const
+{
+    FacesNear result;
+    for (int k = 0; k < leaf.count; ++k)
+        if (const int face = order_[leaf.first + k]; face_box_[face].meets(box)) result.face[result.count++] = face;
+    return result;
+}
+
 void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
                       std::vector<PairCandidate>& found) const
 {
@@ -360,8 +369,12 @@ void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<i
     }
     if (!node_box_[a].meets(node_box_[b]) || (is_body(a) && is_body(b))) return;
     if (na.right == 0 && nb.right == 0) {
-        for (int i = 0; i < na.count; ++i)
-            for (int j = 0; j < nb.count; ++j) meet(order_[na.first + i], order_[nb.first + j], found);
+        const FacesNear of_b = faces_near(nb, node_box_[a]);
+        for (int i = 0; i < na.count && of_b.count > 0; ++i) {
+            const int face = order_[na.first + i];
+            if (!face_box_[face].meets(node_box_[b])) continue;
+            for (int j = 0; j < of_b.count; ++j) meet(face, of_b.face[j], found);
+        }
     } else if (nb.right == 0 || (na.right > 0 && na.count >= nb.count)) {
         stack.insert(stack.end(), {{a + 1, b}, {na.right, b}});
     } else {

@@ -112,6 +112,11 @@ private:
         int first_near = 0, near_count = 0;     // leaves: faces that overlap its cell, grown by the largest face
     };
     using NodePair = std::array<int, 2>;
+    static constexpr int leaf_faces = 4;        // at most
+    struct FacesNear {
+        std::array<int, leaf_faces> face;
+        int count = 0;
+    };
     struct Cell {                               // rectangle of a panel that a node stands for, and what overlaps it
         Vec2 low, high;
         std::vector<int> faces, outline;        // outline: index into outline_
@@ -132,6 +137,7 @@ private:
     void search();
     void visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
                std::vector<PairCandidate>& found) const;
+    FacesNear faces_near(const Node& leaf, const Sweep& box) const;
     void meet(int face_a, int face_b, std::vector<PairCandidate>& found) const;
     void offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const;
     bool may_touch(const PairCandidate& candidate) const;

@@ -8,8 +8,6 @@
 namespace selvage {
 namespace {
 
-constexpr int leaf_faces = 4;
-
 bool overlap(const Vec2& low_a, const Vec2& high_a, const Vec2& low_b, const Vec2& high_b)
 {
     return (low_a.array() <= high_b.array()).all() && (low_b.array() <= high_a.array()).all();
