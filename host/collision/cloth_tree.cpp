@@ -93,6 +93,12 @@ void ClothTree::refit_boxes(bool bodies_move, bool bodies_too)
     });
     searched_start_ = start_;
     searched_end_ = end_;
+    parallel(int(edges_.size()), [&](int e) {
+        const auto& [a, b] = edges_[e];
+        if (!bodies_too && a < 0) return;
+        edge_box_[e] = corner_box_[slot(a)];
+        edge_box_[e].add(corner_box_[slot(b)]);
+    });
     parallel(int(surface_.faces.size()), [&](int f) {
         if (!bodies_too && surface_.faces[f][0] < 0) return;
         face_box_[f].clear();
@@ -420,35 +426,29 @@ void ClothTree::meet(int face_a, int face_b, std::vector<PairCandidate>& found) 
     if (!is_awake_.empty() && face_sleeps_[face_a] && face_sleeps_[face_b]) return;
     if (!face_box_[face_a].meets(face_box_[face_b])) return;
     const Face &a = surface_.faces[face_a], &b = surface_.faces[face_b];
-    const auto edge_box = [this](const Face& f, int k) {
-        Sweep box = corner_box_[slot(f[k])];
-        box.add(corner_box_[slot(f[(k + 1) % 3])]);
-        return box;
-    };
-    std::array<Sweep, 3> box_of_b;
+    const std::array<int, 3> &edges_of_a = own_edges_[face_a], &edges_of_b = own_edges_[face_b];
     std::array<bool, 3> near_b;
     for (int l = 0; l < 3; ++l) {
         if ((owned_[face_b] >> l & 1) && corner_box_[slot(b[l])].meets(face_box_[face_a]))
             offer({{b[l], a[0], a[1], a[2]}, false}, found);
-        box_of_b[l] = edge_box(b, l);
-        near_b[l] = (owned_[face_b] >> (3 + l) & 1) && box_of_b[l].meets(face_box_[face_a]);
+        near_b[l] = edges_of_b[l] >= 0 && edge_box_[edges_of_b[l]].meets(face_box_[face_a]);
     }
     for (int k = 0; k < 3; ++k) {
         if ((owned_[face_a] >> k & 1) && corner_box_[slot(a[k])].meets(face_box_[face_b]))
             offer({{a[k], b[0], b[1], b[2]}, false}, found);
-        if (!(owned_[face_a] >> (3 + k) & 1)) continue;
-        const Sweep box_of_a = edge_box(a, k);
+        if (edges_of_a[k] < 0) continue;
+        const Sweep& box_of_a = edge_box_[edges_of_a[k]];
         if (!box_of_a.meets(face_box_[face_b])) continue;
         for (int l = 0; l < 3; ++l)
-            if (near_b[l] && box_of_a.meets(box_of_b[l])) offer({{a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]}, true}, found);
+            if (near_b[l] && box_of_a.meets(edge_box_[edges_of_b[l]])) offer({{a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]}, true}, found);
     }
 }
 
 std::size_t ClothTree::bytes() const
 {
     return nodes_.size() * (sizeof(Node) + sizeof(Sweep) + sizeof(Gradients)) +
-           surface_.faces.size() * (sizeof(Face) + 3 * sizeof(Vec2) + sizeof(Sweep) + sizeof(Gradients) + 40) +
-           near_.size() * sizeof(int) + start_.size() * (4 * sizeof(Vec3) + sizeof(Sweep) + sizeof(float)) +
+           surface_.faces.size() * (sizeof(Face) + 3 * sizeof(Vec2) + sizeof(Sweep) + sizeof(Gradients) + 52) +
+           edges_.size() * (sizeof(Sweep) + 2 * sizeof(int)) + near_.size() * sizeof(int) + start_.size() * (4 * sizeof(Vec3) + sizeof(Sweep) + sizeof(float)) +
            candidates_.capacity() * sizeof(PairCandidate);
 }
 

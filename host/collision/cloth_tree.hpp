@@ -160,13 +160,15 @@ private:
     std::vector<int> order_;                    // tree order to face
     std::vector<Node> nodes_;                   // children behind their parents
     std::vector<int> near_;                     // faces, see Node
-    std::vector<std::uint8_t> owned_;           // per face: bits 0-2 its corners, 3-5 its edges that it stands for
+    std::vector<std::uint8_t> owned_;           // per face: bits 0-2 its corners that it stands for
+    std::vector<std::array<int, 3>> own_edges_; // per face: its edges that it stands for, -1 where another face does
+    std::vector<std::array<int, 2>> edges_;     // their corners
     std::vector<std::array<double, 4>> rest_inverse_;
 
     std::vector<Vec3> start_, end_;             // of each corner in the moving frame, particles first
     std::vector<Vec3> searched_start_, searched_end_;   // the same when the candidates were searched
     std::vector<float> slack_of_;               // of each corner [m]
-    std::vector<Sweep> corner_box_, face_box_, node_box_;
+    std::vector<Sweep> corner_box_, edge_box_, face_box_, node_box_;
     std::vector<Gradients> face_gradients_, node_gradients_;
     std::vector<int> skipped_;                  // nodes that were taken for flat
     std::vector<char> is_awake_;                // per particle; empty: all are

@@ -69,6 +69,7 @@ ClothTree::ClothTree(TreeSurface surface, double slack)
     end_.resize(corners);
     slack_of_.resize(corners);
     corner_box_.resize(corners);
+    edge_box_.resize(edges_.size());
     face_box_.resize(faces);
     face_gradients_.resize(faces);
     node_box_.resize(nodes_.size());
@@ -84,6 +85,7 @@ void ClothTree::own_primitives()
     std::vector<Side> sides;
     std::vector<char> seen(std::size_t(particles_) + surface_.body_corners.size());
     owned_.assign(surface_.faces.size(), 0);
+    own_edges_.assign(surface_.faces.size(), {-1, -1, -1});
     for (int f = 0; f < int(surface_.faces.size()); ++f)
         for (int k = 0; k < 3; ++k) {
             const int a = surface_.faces[f][k], b = surface_.faces[f][(k + 1) % 3];
@@ -96,7 +98,13 @@ void ClothTree::own_primitives()
     });
     for (std::size_t i = 0; i < sides.size(); ++i)
         if (i == 0 || sides[i].low != sides[i - 1].low || sides[i].high != sides[i - 1].high)
-            owned_[sides[i].face] |= std::uint8_t(8 << sides[i].local);
+            own_edges_[sides[i].face][sides[i].local] = 0;
+    for (std::size_t f = 0; f < own_edges_.size(); ++f)   // in the order of the faces, as they will be read
+        for (int k = 0; k < 3; ++k) {
+            if (own_edges_[f][k] < 0) continue;
+            own_edges_[f][k] = int(edges_.size());
+            edges_.push_back({surface_.faces[f][k], surface_.faces[f][(k + 1) % 3]});
+        }
 }
 
 void ClothTree::build_patches(int first_patch, int patch_count)

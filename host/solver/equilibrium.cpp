@@ -141,6 +141,10 @@ public:
     {
         for (;;) {
             if (nearly_balanced(phase_, options_, progress_)) {
+                if (options_.only_balances) {
+                    wake_all(phase_, progress_);
+                    return PhaseEnd::reached;
+                }
                 const std::optional<PhaseEnd> end = try_statics();
                 if (end) return *end;
             }

@@ -13,6 +13,7 @@ struct EquilibriumOptions {
     int newton_iterations = 12;
     std::function<bool()> stop;         ///< Asked within steps: true gives up the one at hand and stops.
     bool sleeps = true;          ///< What hardly moves is left alone for some steps; see sleep.hpp.
+    bool only_balances = false;  ///< Ends where the forces first nearly balance: a finer cloth goes on from there.
     int load_steps = 1;          ///< The weight grows to its whole in so many steps, with rest after each.
 };
 
