@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "host/collision/body_query.hpp"
+#include "host/plan.hpp"
 #include "host/scene_model.hpp"
 #include "host/solver/equilibrium.hpp"
-#include "host/solver/plan.hpp"
 
 namespace selvage {
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/collision/self_intersections.hpp"
+#include "host/plan.hpp"
 #include "host/render/picture.hpp"
-#include "host/solver/plan.hpp"
 
 namespace selvage {
 namespace {

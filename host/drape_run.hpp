@@ -4,13 +4,13 @@
 #include <optional>
 #include <string>
 
-#include "host/run.hpp"
+#include "host/plan.hpp"
 #include "host/progressive.hpp"
 #include "host/restart.hpp"
+#include "host/run.hpp"
 #include "host/run_recorder.hpp"
 #include "host/scene_model.hpp"
 #include "host/solver/equilibrium.hpp"
-#include "host/solver/plan.hpp"
 #include "host/solver/sewing.hpp"
 
 namespace selvage {

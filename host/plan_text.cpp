@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "host/solver/plan.hpp"
+#include "host/plan.hpp"
 
 namespace selvage {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "host/plan.hpp"
 #include "host/solver/equilibrium.hpp"
-#include "host/solver/plan.hpp"
 
 namespace selvage {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "host/plan.hpp"
 #include "host/progressive.hpp"
 #include "host/run.hpp"
 #include "host/scene_model.hpp"
-#include "host/solver/plan.hpp"
 #include "host/solver/step_control.hpp"
 #include "io/checkpoint.hpp"
 #include "io/progress.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include "host/solver/plan.hpp"
+#include "host/plan.hpp"
 #include "host/solver/sewing.hpp"
 
 namespace selvage {

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "host/plan.hpp"
 #include "host/scene_model.hpp"
 #include "host/scene_phase.hpp"
 #include "host/solver/equilibrium.hpp"
-#include "host/solver/plan.hpp"
 #include "validation/cases/cases.hpp"
 #include "validation/cases/drape_shape.hpp"
 #include "validation/cases/reference.hpp"

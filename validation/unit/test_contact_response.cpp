@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "host/plan.hpp"
 #include "host/solver/equilibrium.hpp"
 #include "host/solver/integrator.hpp"
 #include "host/solver/phase.hpp"
-#include "host/solver/plan.hpp"
 #include "kernels/repulsion.h"
 #include "validation/small_cloth.hpp"
 
@@ -174,6 +174,26 @@ TEST_CASE("towards rest BDF2 is followed until an attempt at statics has failed,
     CHECK(longest_step("bdf2", after_one, true) == Approx(0.04));
     CHECK(longest_step("bdf2", before, false) == Approx(0.02));
     CHECK(longest_step("implicit_euler", before, true) == Approx(0.04));
+}
+
+TEST_CASE("who only wants balance gets the cloth where its forces first nearly balance, before any statics", "[response]")
+{
+    Params params;
+    params.body_repulsion.stiffness = 2;
+    params.body_repulsion.gap = gap;
+    Landing sheet(params, 0.05);
+    EquilibriumOptions options;
+    options.tolerance = 1e-7;
+    options.only_balances = true;
+    DrapeProgress progress;
+    const auto hear = [](const StepEvent& event) {
+        CHECK(event.dt > 0);   // static iterations are none of time
+        return true;
+    };
+    REQUIRE(drape_to_equilibrium(*sheet.phase, options, progress, hear) == PhaseEnd::reached);
+    CHECK(progress.residual <= DrapeProgress{}.switch_residual);
+    CHECK(progress.residual > options.tolerance);
+    CHECK(progress.switch_residual == DrapeProgress{}.switch_residual);
 }
 
 TEST_CASE("under the velocity rule a dropped sheet bounces to the height that restitution tells", "[response]")

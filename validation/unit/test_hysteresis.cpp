@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "host/garment/sheet.hpp"
+#include "host/plan.hpp"
 #include "host/solver/anchors.hpp"
 #include "host/solver/equilibrium.hpp"
-#include "host/solver/plan.hpp"
 #include "validation/small_cloth.hpp"
 
 using namespace selvage;

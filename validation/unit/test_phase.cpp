@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "host/plan.hpp"
 #include "host/solver/equilibrium.hpp"
 #include "host/solver/phase.hpp"
-#include "host/solver/plan.hpp"
 #include "host/solver/sewing.hpp"
 #include "validation/small_cloth.hpp"
 

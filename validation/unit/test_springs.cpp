@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
+#include "host/plan.hpp"
 #include "host/solver/equilibrium.hpp"
 #include "host/solver/phase.hpp"
-#include "host/solver/plan.hpp"
 #include "host/solver/springs.hpp"
 #include "validation/cases/finite_differences.hpp"
 #include "validation/small_cloth.hpp"

@@ -1,4 +1,4 @@
-#include "host/solver/plan.hpp"
+#include "host/plan.hpp"
 
 #include <algorithm>
 #include <cmath>
