@@ -60,6 +60,8 @@ void write_upright(cv::Mat& on, const std::string& text, cv::Point middle, doubl
     turned(cv::Rect(0, 0, place.width, place.height)).copyTo(on(place));
 }
 
+constexpr double two_labels = 0.72;   // [decades]: as much always holds two of 1, 2, 5 times a power of ten
+
 // One logarithmic axis: from whole decades to pixels.
 struct Axis {
     double low = 0, high = 1;   // log10
@@ -75,7 +77,8 @@ Axis fit_axis(const std::vector<double>& values, int from, int to)
         axis.high = std::max(axis.high, std::log10(value));
     }
     if (values.empty()) axis.low = axis.high = 0;
-    const double room = std::max(0.06 * (axis.high - axis.low), 0.1);
+    const double span = axis.high - axis.low;
+    const double room = std::max(0.06 * span, 0.5 * (two_labels - span));
     axis.low -= room;
     axis.high += room;
     return axis;
