@@ -83,7 +83,7 @@ bool drape_stage(Stage& stage, bool sews, const std::vector<Vec3>& positions, co
             const std::unique_ptr<Integrator> integrator = make_integrator(integrator_of(stage.scene), *stage.phase);
             EquilibriumOptions own = options;
             own.integrator = integrator.get();
-            own.only_balances = stage.query.has_value();   // the last of the way is another one on the finer mesh
+            own.only_balances = stage.query.has_value();
             end = drape_to_equilibrium(*stage.phase, own, progress, hear);
         }
         if (end == PhaseEnd::stopped) return false;

@@ -29,7 +29,8 @@ struct CoarseStart {
 };
 
 /// Drapes the coarser cloths of a scene, each from the shape of the one before, and carries the last shape over to the
-/// scene's own cloth. A garment is sewn at the coarsest. Most of the way is gone there, where a step costs next to nothing.
+/// scene's own cloth. A garment is sewn at the coarsest. Most of the way is gone there, where a step costs next to nothing;
+/// on bodies only until the forces nearly balance, since the last of the way is another one on the finer mesh.
 /// Where cloth must not pass through itself or a body, a carried shape that does is dropped, as is that of a stage that
 /// diverged: the finer cloth then starts as the scene says. A garment may start with a few intersections: it is untangled.
 /// Source: Zhang and others 2022, progressive cloth quasistatics.
