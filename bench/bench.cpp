@@ -2,12 +2,12 @@
 
 #include <iostream>
 
-#include "bench/broad_phase.hpp"
-#include "bench/kernels.hpp"
-#include "bench/scaling.hpp"
-#include "bench/skip.hpp"
-#include "bench/stability.hpp"
-#include "bench/work_precision.hpp"
+#include "bench/suites/broad_phase.hpp"
+#include "bench/suites/kernels.hpp"
+#include "bench/suites/scaling.hpp"
+#include "bench/suites/skip.hpp"
+#include "bench/suites/stability.hpp"
+#include "bench/suites/work_precision.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {

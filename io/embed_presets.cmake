@@ -1,6 +1,6 @@
 # Writes a C++ file that holds every file below FOLDER that matches PATTERN, as the body of a function that HEADER
-# declares (see io/presets.hpp):
-#     cmake -DFOLDER=io/presets -DPATTERN=*.toml -DHEADER=io/presets.hpp -DFUNCTION=preset_files
+# declares (see io/scene/presets.hpp):
+#     cmake -DFOLDER=io/presets -DPATTERN=*.toml -DHEADER=io/scene/presets.hpp -DFUNCTION=preset_files
 #           -DOUTPUT=preset_files.cpp -P io/embed_presets.cmake
 cmake_minimum_required(VERSION 3.20)
 

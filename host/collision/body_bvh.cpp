@@ -8,7 +8,7 @@
 
 #include <embree3/rtcore.h>
 
-#include "host/solver/trace.hpp"
+#include "host/parallel/trace.hpp"
 
 namespace selvage {
 namespace {

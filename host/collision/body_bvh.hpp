@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "host/collision/body_motion.hpp"
+#include "host/model/body_motion.hpp"
 #include "host/collision/body_surface.hpp"
 
 namespace selvage {

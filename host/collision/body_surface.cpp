@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "host/collision/body_tessellation.hpp"
+#include "host/mesh/body_tessellation.hpp"
 
 namespace selvage {
 namespace {

@@ -3,7 +3,7 @@
 #include <tuple>
 #include <vector>
 
-#include "host/collision/closest_on_triangle.hpp"
+#include "host/mesh/closest_on_triangle.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {

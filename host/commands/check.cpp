@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include "host/commands/commands.hpp"
-#include "host/diagnose.hpp"
-#include "io/scene.hpp"
+#include "host/scene/diagnose.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 namespace {

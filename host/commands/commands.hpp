@@ -1,23 +1,13 @@
 #pragma once
-#include <functional>
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "host/commands/command.hpp"
 
 namespace selvage {
 
-/// What the command line asks for; returns the exit code.
-using Action = std::function<int()>;
-
-/// Adds one subcommand with its options and its help; when the command line names it, `chosen` becomes its action.
-using AddCommand = void(CLI::App& program, Action& chosen);
-
 AddCommand add_drape_command, add_plan_command, add_check_command, add_render_command, add_info_command,
-    add_scenes_command, add_fabrics_command, add_schema_command, add_bench_command,
-    add_validate_command;
+    add_scenes_command, add_fabrics_command, add_schema_command;
 
 /// The scene that a subcommand works on.
 struct SceneChoice {

@@ -6,9 +6,9 @@
 #include <CLI/CLI.hpp>
 
 #include "host/commands/commands.hpp"
-#include "host/interrupt.hpp"
-#include "host/run.hpp"
-#include "io/scene.hpp"
+#include "host/run/interrupt.hpp"
+#include "host/run/run.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/commands/commands.hpp"
-#include "io/scene.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 namespace {

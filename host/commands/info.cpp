@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/commands/commands.hpp"
-#include "io/describe.hpp"
+#include "io/run/describe.hpp"
 
 namespace selvage {
 namespace {

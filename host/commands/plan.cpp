@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include "host/commands/commands.hpp"
-#include "host/plan_text.hpp"
-#include "io/scene.hpp"
+#include "host/scene/plan_text.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 namespace {

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/commands/commands.hpp"
-#include "host/render_run.hpp"
+#include "host/run/render_run.hpp"
 
 namespace selvage {
 namespace {

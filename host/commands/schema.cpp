@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/commands/commands.hpp"
-#include "io/scene.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 

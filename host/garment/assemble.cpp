@@ -8,9 +8,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "host/garment/grid_point.hpp"
+#include "host/mesh/grid_point.hpp"
 #include "host/garment/outline.hpp"
-#include "host/garment/panel_mesh.hpp"
+#include "host/mesh/panel_mesh.hpp"
 #include "host/garment/seam.hpp"
 #include "io/errors.hpp"
 

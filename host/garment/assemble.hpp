@@ -2,8 +2,8 @@
 #include <map>
 #include <string>
 
-#include "host/garment/cloth.hpp"
-#include "io/pattern.hpp"
+#include "host/model/cloth.hpp"
+#include "io/pattern/pattern.hpp"
 
 namespace selvage {
 

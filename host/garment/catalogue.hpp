@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "io/pattern.hpp"
+#include "io/pattern/pattern.hpp"
 
 namespace selvage {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/garment/delaunay.hpp"
+#include "host/mesh/delaunay.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {

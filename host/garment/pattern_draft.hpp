@@ -1,6 +1,6 @@
 #pragma once
-#include "host/garment/mannequin.hpp"
-#include "io/pattern.hpp"
+#include "host/mannequin/mannequin.hpp"
+#include "io/pattern/pattern.hpp"
 
 namespace selvage {
 

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "host/garment/cloth.hpp"
-#include "io/pattern.hpp"
+#include "host/model/cloth.hpp"
+#include "io/pattern/pattern.hpp"
 
 namespace selvage {
 

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "host/garment/outline.hpp"
-#include "host/garment/sheet_families.hpp"
+#include "host/mesh/sheet_families.hpp"
 
 namespace selvage {
 namespace {

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "host/garment/cloth.hpp"
-#include "io/scene.hpp"
+#include "host/model/cloth.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/solver/trace.hpp"
+#include "host/parallel/trace.hpp"
 
 namespace selvage {
 namespace {

@@ -4,7 +4,7 @@
 //     q >  r:  E = L (q - r / 2),    M = L w / q         (slips: |M| = L)
 //     f_i = -M cos(theta/2) dtheta/dx_i
 // After every step the anchor is drawn along so that q <= r (stages/settle_hysteresis.h). Bent to and fro, the cloth
-// shows a moment loop of the width 2HB beside its elastic moment, whatever the mesh (host/solver/hysteresis.hpp).
+// shows a moment loop of the width 2HB beside its elastic moment, whatever the mesh (host/solver/state/hysteresis.hpp).
 // Source: a frictional couple beside the rigidity as in Grosberg 1966 and Kawabata 1980; the elastic anchor is that of
 // terms/friction.h.
 // The projected stiffness takes M / w for dM/dphi, which is never negative and which a slipping hinge needs to see

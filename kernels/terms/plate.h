@@ -2,7 +2,7 @@
 //     phi_h = 2 (sin(theta_h/2) - sin(theta0_h/2))                  (the hinge's turn, theta for small angles)
 //     E = 1/2 sum_hk phi_h G_hk phi_k  [J]                          M_h = sum_k G_hk phi_k  [N m]
 //     f_i = -sum_h M_h cos(theta_h/2) dtheta_h/dx_i  [N]
-// G comes from the rest mesh once (host/solver/plate.cpp): a curvature tensor per face from the turns of the hinges
+// G comes from the rest mesh once (host/solver/state/plate.cpp): a curvature tensor per face from the turns of the hinges
 // around it, with the fabric's rigidities. Source: a curvature tensor per triangle as in Grinspun and others 2006 and
 // Morley 1971, the share of a hinge's turn that belongs to each side being matched to quadratic surfaces.
 // The projected stiffness drops M d2phi/dx2; what is left, J^T G J with the slopes J = dphi/dx, is never negative.

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "validation/cases/cases.hpp"
-#include "validation/cases/reference.hpp"
-#include "validation/cases/specimen.hpp"
+#include "validation/measure/reference.hpp"
+#include "validation/measure/specimen.hpp"
 
 namespace selvage {
 namespace {

@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "host/plan.hpp"
-#include "host/scene_model.hpp"
-#include "host/scene_phase.hpp"
-#include "host/solver/equilibrium.hpp"
+#include "host/scene/plan.hpp"
+#include "host/scene/scene_model.hpp"
+#include "host/scene/scene_phase.hpp"
+#include "host/solver/stepping/equilibrium.hpp"
 #include "validation/cases/cases.hpp"
-#include "validation/cases/drape_shape.hpp"
-#include "validation/cases/reference.hpp"
+#include "validation/measure/drape_shape.hpp"
+#include "validation/measure/reference.hpp"
 
 namespace selvage {
 namespace {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "validation/cases/cases.hpp"
-#include "validation/cases/reference.hpp"
-#include "validation/cases/specimen.hpp"
-#include "validation/cases/stiffness.hpp"
+#include "validation/measure/reference.hpp"
+#include "validation/measure/specimen.hpp"
+#include "validation/measure/stiffness.hpp"
 
 namespace selvage {
 namespace {

@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "host/solver/integrator.hpp"
-#include "host/solver/phase.hpp"
-#include "host/solver/step_control.hpp"
+#include "host/solver/stepping/integrator.hpp"
+#include "host/solver/stepping/phase.hpp"
+#include "host/solver/stepping/step_control.hpp"
 #include "kernels/barrier.h"
 #include "validation/cases/cases.hpp"
-#include "validation/cases/reference.hpp"
-#include "validation/cases/specimen.hpp"
+#include "validation/measure/reference.hpp"
+#include "validation/measure/specimen.hpp"
 
 namespace selvage {
 namespace {

@@ -7,12 +7,12 @@
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
-#include "host/garment/sheet_families.hpp"
+#include "host/mesh/sheet_families.hpp"
 #include "kernels/hinge.h"
 #include "validation/cases/cases.hpp"
-#include "validation/cases/reference.hpp"
-#include "validation/cases/specimen.hpp"
-#include "validation/cases/stiffness.hpp"
+#include "validation/measure/reference.hpp"
+#include "validation/measure/specimen.hpp"
+#include "validation/measure/stiffness.hpp"
 
 namespace selvage {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "validation/cases/cases.hpp"
-#include "validation/cases/finite_differences.hpp"
-#include "validation/small_cloth.hpp"
+#include "validation/measure/finite_differences.hpp"
+#include "validation/measure/small_cloth.hpp"
 
 namespace selvage {
 

@@ -11,18 +11,18 @@ SOURCES = [path for room in ("kernels", "io", "host", "bench", "validation") for
 # What may include a header whose name matches: folders, or single files.
 PLACES = {
     r"^(tbb|oneapi)/": ["host", "bench", "validation"],
-    r"^embree": ["host/collision", "host/render"],
-    r"^(hdf5|H5)": ["io", "validation/unit/test_trajectory.cpp"],
-    r"^opencv": ["io/image.cpp", "io/chart.cpp"],
+    r"^embree": ["host/collision", "host/render", "bench/suites/embree_pairs.cpp"],
+    r"^(hdf5|H5)": ["io", "validation/unit/io/test_trajectory.cpp"],
+    r"^opencv": ["io/image.cpp", "bench/harness/chart.cpp"],
     r"^(Eigen|unsupported)/": ["io", "host", "bench", "validation"],
     r"^toml\+\+/": ["io"],
-    r"^CLI/": ["host/main.cpp", "host/commands"],
+    r"^CLI/": ["host/main.cpp", "host/commands", "bench/bench_command.cpp", "validation/validate_command.cpp"],
     r"^catch2/": ["validation/unit"],
     r"^benchmark/": ["bench"],
     r"^host/": ["host", "bench", "validation"],
-    r"^bench/": ["bench", "host/commands", "validation"],
+    r"^bench/": ["bench", "host/main.cpp", "validation"],
     r"^io/": ["io", "host", "bench", "validation"],
-    r"^validation/": ["validation", "host/commands"],
+    r"^validation/": ["validation", "host/main.cpp"],
 }
 
 

@@ -1,0 +1,63 @@
+#pragma once
+#include "host/mannequin/mannequin.hpp"
+#include "host/mannequin/section_tube.hpp"
+
+namespace selvage {
+
+enum class BodyPart { head, neck, torso, left_arm, right_arm, left_leg, right_leg };
+
+/// The mannequin as an implicit shape, symmetric in x: smooth unions of tubes and ellipsoids. Limbs are
+/// described in the half space x >= 0 and mirrored.
+class MannequinShape {
+public:
+    /// Calibrates the shape so that its girths and its shoulder width are those of `measures`.
+    explicit MannequinShape(const MannequinMeasures& measures);
+
+    double operator()(const Vec3& point) const;   ///< Signed distance [m], first order; negative inside.
+    double trunk(const Vec3& point) const;        ///< The same without arms and hands.
+
+    /// Where a point of the surface goes when the arms turn about the shoulder joints: arms whole, the trunk not at all,
+    /// and smoothly in between. @param arm_angle  new angle below the horizontal [degrees]
+    Vec3 with_arms_at(double arm_angle, const Vec3& point) const;
+
+    BodyPart part(const Vec3& point) const;       ///< Part to which a point on the surface belongs.
+
+    /// Tape girth [m] of the trunk at a height [m]: the perimeter of the section's convex hull.
+    double girth(double height) const;
+
+    /// First point outside along a ray that starts inside, or after `reach` [m].
+    Vec3 exit_point(const Vec3& start, const Vec3& direction, double reach) const;
+
+    MannequinLandmarks landmarks() const;
+    const MannequinMeasures& measures() const { return measures_; }
+
+private:
+    /// Factors on the drawn sections, found by calibrate().
+    struct Factors {
+        double bust = 1, waist = 1, hips = 1, neck = 1;
+        double joint_x = 0;   ///< Of the shoulder joint [m].
+    };
+
+    void draw();
+    void draw_torso();
+    void draw_head();
+    void draw_arm();
+    void draw_leg();
+    void calibrate();
+
+    double torso(const Vec3& point) const;
+    double head(const Vec3& point) const;
+    double leg(const Vec3& point) const;
+    double arm(const Vec3& point) const;
+    Vec3 arm_frame(const Vec3& point) const;   ///< (along, front-back, outer) coordinates of the arm at x >= 0.
+
+    MannequinMeasures measures_;
+    Factors factors_;
+    double scale_ = 1;         ///< Stature over that of the drawing.
+    double arm_scale_ = 1;     ///< Girth of the arms over that of the drawing.
+    double hand_offset_ = 0;   ///< Of the hand from the arm's axis, outwards.
+    Vec3 joint_ = Vec3::Zero(), along_ = Vec3::Zero(), outer_ = Vec3::Zero();
+    SectionTube torso_, neck_, arm_, thumb_, leg_, foot_;
+};
+
+}  // namespace selvage

@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include "host/mesh/triangle_tree.hpp"
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+/// Two triangles that meet, by their indices.
+using IntersectingPair = TrianglePair;
+
+/// Finds every pair of a mesh's triangles that intersect, by exact predicates. Pairs that share a corner count if an
+/// edge of one that does not end there meets the other; pairs that share an edge, and triangles without area, do not.
+/// @param vertices  finite positions [m]
+/// @returns pairs with the smaller index first, sorted
+std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces);
+
+/// A mesh that others are tested against, again and again.
+class IntersectionTarget {
+public:
+    explicit IntersectionTarget(TriangleMesh mesh);
+    IntersectionTarget(const IntersectionTarget&) = delete;   // its tree refers to its mesh
+
+    /// As mutual_intersections.
+    std::vector<IntersectingPair> intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces) const;
+
+private:
+    TriangleMesh mesh_;
+    TriangleTree tree_;            // of mesh_
+    std::vector<char> has_area_;   // per face
+};
+
+/// Finds every pair of a triangle of one mesh and a triangle of another that intersect, by exact predicates.
+std::vector<IntersectingPair> mutual_intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces,
+                                                   const TriangleMesh& other);
+
+}  // namespace selvage

@@ -1,0 +1,108 @@
+#pragma once
+#include <functional>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include "host/parallel/trace.hpp"
+
+// Promises the compiler what every kernel guarantees: no item reads what another item writes.
+#ifdef __clang__
+    #define INDEPENDENT_ITEMS _Pragma("clang loop vectorize(assume_safety)")
+#else
+    #define INDEPENDENT_ITEMS _Pragma("GCC ivdep")
+#endif
+
+namespace selvage {
+
+/// Items of one task: small enough to balance, large enough to hide the task's cost.
+constexpr int items_per_task = 1024;
+
+/// Runs `body(item)` for every item in [0, count) on the TBB threads. Like all launches it shows in the trace in use.
+template <class Body>
+void for_each_item(int count, const Body& body)
+{
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, items_per_task), [body, mark = Trace::mark()](const auto& range) {
+        const TaskSpan span(mark);
+        const int end = range.end();
+        INDEPENDENT_ITEMS
+        for (int item = range.begin(); item < end; ++item) body(item);
+    });
+}
+
+/// Items that take part: all of [0, count), or `count` of them that a list names in ascending order.
+struct Items {
+    int count = 0;
+    const int* list = nullptr;   ///< Null: all.
+};
+
+/// Runs `body(item)` for the items that take part.
+template <class Body>
+void for_each_item(const Items& items, const Body& body)
+{
+    if (items.list)
+        for_each_item(items.count, [body, list = items.list](int i) { body(list[i]); });
+    else
+        for_each_item(items.count, body);
+}
+
+/// Runs `Kernel(item, &args)` for every item that takes part on the TBB threads; `items` may be a count.
+/// A kernel writes only to its own item, so items run in any order, in parallel and in SIMD lanes.
+/// `args` is copied into each task, where the compiler can keep it in registers.
+template <auto Kernel, class Args>
+void launch(const Items& items, const Args& args)
+{
+    for_each_item(items, [args](int item) { Kernel(item, &args); });
+}
+template <auto Kernel, class Args>
+void launch(int count, const Args& args)
+{
+    launch<Kernel>(Items{count}, args);
+}
+
+/// Returns the sum of `body(item)` over [0, count), accumulated in double precision.
+/// The items are split the same way whatever the thread count, so the result is reproducible.
+template <class Body>
+double sum_items(int count, const Body& body)
+{
+    return tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<int>(0, count, items_per_task), 0.0,
+        [body, mark = Trace::mark()](const auto& range, double sum) {
+            const TaskSpan span(mark);
+            for (int item = range.begin(); item < range.end(); ++item) sum += body(item);
+            return sum;
+        },
+        std::plus<>{});
+}
+
+/// The same over the items that take part.
+template <class Body>
+double sum_items(const Items& items, const Body& body)
+{
+    if (!items.list) return sum_items(items.count, body);
+    return sum_items(items.count, [body, list = items.list](int i) { return body(list[i]); });
+}
+
+/// Returns the sum of `Kernel(item, &args)` over the items that take part; see sum_items.
+template <auto Kernel, class Args>
+double launch_sum(const Items& items, const Args& args)
+{
+    return sum_items(items, [args](int item) { return double(Kernel(item, &args)); });
+}
+
+/// Returns the largest `body(item)` over [0, count), or 0 without items.
+template <class Body>
+double max_items(int count, const Body& body)
+{
+    return tbb::parallel_reduce(
+        tbb::blocked_range<int>(0, count, items_per_task), 0.0,
+        [body, mark = Trace::mark()](const auto& range, double most) {
+            const TaskSpan span(mark);
+            for (int item = range.begin(); item < range.end(); ++item) most = std::max(most, double(body(item)));
+            return most;
+        },
+        [](double a, double b) { return std::max(a, b); });
+}
+
+}  // namespace selvage

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/render/picture.hpp"
+#include "host/solver/stepping/phase.hpp"
+
+namespace selvage {
+
+/// The outward faces of a cloth with one vertex standing for all that are sewn to each other, so that faces of two panels
+/// share the vertices of their seam.
+std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology);
+
+/// Draws the cloth and its bodies into a PNG file, seams visible.
+void draw_cloth(const std::string& path, const Cloth& cloth, const std::vector<TriangleMesh>& bodies,
+                const std::vector<Vec3>& positions, const Topology& topology, PictureOptions options);
+
+}  // namespace selvage

@@ -1,0 +1,65 @@
+#pragma once
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/scene/plan.hpp"
+#include "host/run/progressive.hpp"
+#include "host/run/restart.hpp"
+#include "host/run/run.hpp"
+#include "host/run/run_recorder.hpp"
+#include "host/scene/scene_model.hpp"
+#include "host/solver/stepping/equilibrium.hpp"
+#include "host/solver/stepping/sewing.hpp"
+
+namespace selvage {
+
+/// One run from the assembled scene to its end; owns everything that lives as long as the run.
+class DrapeRun {
+public:
+    DrapeRun(const Scene& scene, const RunOptions& options);
+    RunOutcome execute();
+
+private:
+    void start_phase(const std::string& name, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
+    void begin();
+    void start_afresh(const std::string& progress);
+    void resume();
+    void save();
+    PhaseEnd run_phases();
+    PhaseEnd run_sewing();
+    void join_seams();
+    PhaseEnd run_pressing();
+    EquilibriumOptions draping_options();
+    PhaseEnd run_coarse();
+    PhaseEnd run_draping();
+    bool after_step(const StepEvent& event);
+    bool must_stop() const;
+    void note_stability(const StepEvent& event);
+    double elapsed() const;
+    RunOutcome conclude_at_rest();
+    RunOutcome conclude(RunStatus status, const std::string& message);
+    RunOutcome conclude_stopped();
+    std::string why_not_done() const;
+
+    std::string checkpoint_path() const { return options_.folder + "/checkpoint.h5"; }
+
+    const Scene& scene_;
+    RunOptions options_;
+    std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+    SceneModel model_;
+    RunPlan plan_;
+    Profile profile_;
+    std::optional<BodyQuery> query_;
+    std::unique_ptr<Phase> phase_;
+    std::unique_ptr<Integrator> integrator_;   ///< Of the drape; sewing has its own.
+    StabilityUse stability_;
+    std::vector<CoarseStage> coarse_stages_;
+    RunProgress progress_;
+    double wall_before_ = 0;        ///< Of the runs that this one resumes [s].
+    double last_checkpoint_ = 0;    ///< elapsed() then [s].
+    std::unique_ptr<RunRecorder> recorder_;
+};
+
+}  // namespace selvage

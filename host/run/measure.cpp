@@ -1,0 +1,110 @@
+#include "host/run/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "host/solver/state/topology.hpp"
+
+namespace selvage {
+namespace {
+
+// Square roots of the eigenvalues of the right Cauchy-Green tensor C = F^T F.
+std::array<double, 2> principal_stretches(const Cloth& cloth, const std::vector<Vec3>& x, int face)
+{
+    const std::array<double, 4> w = face_rest_weights(cloth, face);
+    const Face& f = cloth.faces[face];
+    const Vec3 a = x[f[1]] - x[f[0]], b = x[f[2]] - x[f[0]];
+    const Vec3 weft = w[0] * a + w[1] * b, warp = w[2] * a + w[3] * b;
+    const double uu = weft.squaredNorm(), vv = warp.squaredNorm(), uv = weft.dot(warp);
+    const double mean = 0.5 * (uu + vv), radius = std::hypot(0.5 * (uu - vv), uv);
+    return {std::sqrt(std::max(mean - radius, 0.0)), std::sqrt(mean + radius)};
+}
+
+// Edges of a panel that belong to one of its faces only.
+std::vector<std::array<int, 2>> boundary_edges(const Cloth& cloth, const ClothPanel& panel)
+{
+    std::map<std::array<int, 2>, int> uses;
+    for (int f = panel.first_face; f < panel.first_face + panel.face_count; ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = cloth.faces[f][k], b = cloth.faces[f][(k + 1) % 3];
+            ++uses[{std::min(a, b), std::max(a, b)}];
+        }
+    std::vector<std::array<int, 2>> edges;
+    for (const auto& [edge, count] : uses)
+        if (count == 1) edges.push_back(edge);
+    return edges;
+}
+
+}  // namespace
+
+StretchMeasure measure_stretch(const Cloth& cloth, const std::vector<Vec3>& positions)
+{
+    StretchMeasure measure;
+    if (cloth.faces.empty()) return measure;
+    std::vector<double> strains;
+    strains.reserve(2 * cloth.faces.size());
+    for (int f = 0; f < int(cloth.faces.size()); ++f)
+        for (double stretch : principal_stretches(cloth, positions, f)) strains.push_back(stretch - 1);
+    const auto [low, high] = std::minmax_element(strains.begin(), strains.end());
+    measure.min = *low;
+    measure.max = *high;
+    for (double& strain : strains) strain = std::abs(strain);
+    const auto at = strains.begin() + std::ptrdiff_t(0.99 * double(strains.size() - 1));
+    std::nth_element(strains.begin(), at, strains.end());
+    measure.p99 = *at;
+    return measure;
+}
+
+std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<Vec3>& x)
+{
+    std::vector<PanelMeasure> measures;
+    for (const ClothPanel& panel : cloth.panels) {
+        double area = 0, flat_area = 0, boundary = 0, flat_boundary = 0;
+        for (int f = panel.first_face; f < panel.first_face + panel.face_count; ++f) {
+            const Face& c = cloth.faces[f];
+            area += 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm();
+            const Vec2 a = cloth.panel_coordinates[c[1]] - cloth.panel_coordinates[c[0]];
+            const Vec2 b = cloth.panel_coordinates[c[2]] - cloth.panel_coordinates[c[0]];
+            flat_area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+        }
+        for (const auto& [a, b] : boundary_edges(cloth, panel)) {
+            boundary += (x[a] - x[b]).norm();
+            flat_boundary += (cloth.panel_coordinates[a] - cloth.panel_coordinates[b]).norm();
+        }
+        measures.push_back({panel.name, std::abs(area - flat_area) / flat_area,
+                            std::abs(boundary - flat_boundary) / flat_boundary});
+    }
+    return measures;
+}
+
+std::vector<double> measure_seams(const Cloth& cloth, const std::vector<Vec3>& positions)
+{
+    std::vector<double> gaps;
+    for (const Seam& seam : cloth.seams) {
+        double gap = 0;
+        for (int k = seam.first_pair; k < seam.first_pair + seam.pair_count; ++k)
+            gap = std::max(gap, (positions[cloth.seam_pairs[k][0]] - positions[cloth.seam_pairs[k][1]]).norm());
+        gaps.push_back(gap);
+    }
+    return gaps;
+}
+
+double measure_seam_gap(const Cloth& cloth, const std::vector<Vec3>& positions)
+{
+    double gap = 0;
+    for (const auto& [a, b] : cloth.seam_pairs) gap = std::max(gap, (positions[a] - positions[b]).norm());
+    return gap;
+}
+
+std::vector<std::array<double, 3>> rest_edge_lengths(const Cloth& cloth)
+{
+    std::vector<std::array<double, 3>> lengths;
+    lengths.reserve(cloth.faces.size());
+    const auto& u = cloth.panel_coordinates;
+    for (const Face& f : outward_faces(cloth))
+        lengths.push_back({(u[f[1]] - u[f[0]]).norm(), (u[f[2]] - u[f[1]]).norm(), (u[f[0]] - u[f[2]]).norm()});
+    return lengths;
+}
+
+}  // namespace selvage

@@ -1,0 +1,36 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "host/model/cloth.hpp"
+
+namespace selvage {
+
+/// Principal stretches minus one over all faces, in each face's own rest plane [1].
+struct StretchMeasure {
+    double min = 0, max = 0;
+    double p99 = 0;   ///< Magnitude below which 99 % of the principal stretches lie.
+};
+
+/// How much sewing and draping changed a panel: |now - flat| / flat [1] (A13).
+struct PanelMeasure {
+    std::string name;
+    double area_error = 0, boundary_error = 0;
+};
+
+/// @param positions  per cloth vertex [m]
+StretchMeasure measure_stretch(const Cloth& cloth, const std::vector<Vec3>& positions);
+
+std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<Vec3>& positions);
+
+/// Largest distance of a sewn pair [m].
+double measure_seam_gap(const Cloth& cloth, const std::vector<Vec3>& positions);
+
+/// The gap of each seam: largest distance among its pairs [m].
+std::vector<double> measure_seams(const Cloth& cloth, const std::vector<Vec3>& positions);
+
+/// Rest lengths of the edges 01, 12, 20 of every outward face [m].
+std::vector<std::array<double, 3>> rest_edge_lengths(const Cloth& cloth);
+
+}  // namespace selvage

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+
+#include "io/scene/scene.hpp"
+#include "io/run/summary.hpp"
+
+namespace selvage {
+
+struct RunOptions {
+    std::string folder = "out";   ///< Where the results go; made if missing.
+    bool resume = false;          ///< Go on from the folder's checkpoint.
+    bool quiet = false;           ///< No progress on stderr.
+    bool profile = false;         ///< Print what every phase cost, and leave trace.json.
+};
+
+struct RunOutcome {
+    RunStatus status = RunStatus::finished;
+    int exit_code = 0;
+    std::string message;          ///< For stderr; empty when there is nothing to say.
+};
+
+/// Sews and drapes a scene and writes trajectory, summary, last frame, picture and checkpoints into the folder.
+/// Sewing runs without gravity until every seam is closed; then sewn vertices become one particle and the garment is
+/// draped, to equilibrium or for a given time.
+/// @throws InputError for a faulty scene, a scene too large for the memory, or a missing checkpoint
+RunOutcome run_drape(const Scene& scene, const RunOptions& options);
+
+}  // namespace selvage

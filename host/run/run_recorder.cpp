@@ -1,0 +1,254 @@
+#include "host/run/run_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <tbb/global_control.h>
+
+#include "host/run/cloth_picture.hpp"
+#include "host/mesh/self_intersections.hpp"
+#include "host/run/measure.hpp"
+#include "host/scene/scene_phase.hpp"
+#include "host/solver/terms/elastic_energy.hpp"
+#include "io/errors.hpp"
+#include "io/memory.hpp"
+#include "io/mesh/mesh_obj.hpp"
+#include "io/version.hpp"
+
+namespace selvage {
+namespace {
+
+void make_folder(const std::string& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw InputError({folder, 0, 0, {}}, error.message(), "a folder that can be made or written");
+}
+
+void remove_file(const std::string& path)
+{
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) throw InputError({path, 0, 0, {}}, error.message(), "a file of an earlier run, or nothing");
+}
+
+TrajectoryLayout trajectory_layout(const Scene& scene, const Cloth& cloth, const Topology& topology)
+{
+    TrajectoryLayout layout;
+    layout.point_count = int(cloth.positions.size());
+    layout.triangles = shared_faces(cloth, topology);
+    layout.panel_coordinates = cloth.panel_coordinates;
+    for (int p = 0; p < int(cloth.panels.size()); ++p) {
+        layout.panel.insert(layout.panel.end(), std::size_t(cloth.panels[p].vertex_count), p);
+        layout.panel_names.push_back(cloth.panels[p].name);
+    }
+    layout.rest_edge_lengths = rest_edge_lengths(cloth);
+    layout.seam_pairs = cloth.seam_pairs;
+    layout.scene_text = scene.text;
+    const bool builtin = scene.file.starts_with("builtin:");
+    layout.scene_file = builtin ? scene.file : std::filesystem::absolute(scene.file).string();
+    layout.version = version;
+    layout.grid = position_grid(scene.output.precision);
+    return layout;
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(const Scene& scene, const SceneModel& model, const RunOptions& options, bool resume)
+    : scene_(scene), model_(model), folder_(options.folder)
+{
+    make_folder(folder_);
+    if (!resume)
+        for (const char* stale : {"summary.json", "run.h5", "run.xdmf", "sewing.h5", "sewing.xdmf", "final.obj",
+                                  "preview.png", "body.obj", "checkpoint.h5", "trace.json"})
+            remove_file(folder_ + "/" + stale);
+    remove_file(folder_ + "/summary.json");
+    ProgressOptions progress;
+    progress.path = folder_ + "/progress.jsonl";
+    progress.append = resume;
+    progress.quiet = options.quiet;
+    progress.tolerance = scene.solver.tolerance;
+    if (scene.solver.until != "equilibrium") progress.end_time = std::stod(scene.solver.until);
+    progress_ = std::make_unique<ProgressReport>(progress);
+}
+
+RunRecorder::~RunRecorder() = default;
+
+void RunRecorder::open_phase(const std::string& name, const Topology& topology, int keep_frames)
+{
+    sewing_phase_ = name == "sew";
+    last_frame_ = -1;
+    next_frame_ = 0;
+    if (sewing_phase_ && !scene_.output.sewing) return;
+    const std::string path = folder_ + (sewing_phase_ ? "/sewing.h5" : "/run.h5");
+    if (keep_frames >= 0)
+        trajectory_.emplace(TrajectoryWriter::resume(path, keep_frames));
+    else
+        trajectory_.emplace(TrajectoryWriter::create(path, trajectory_layout(scene_, model_.model.cloth, topology)));
+    if (keep_frames > 0) {
+        last_frame_ = trajectory_->last_time();
+        next_frame_ = frame_time_after(last_frame_);
+    }
+}
+
+double RunRecorder::frame_time_after(double time) const
+{
+    const double interval = 1 / scene_.solver.frame_rate;
+    return interval * (std::floor(time / interval + 1e-6) + 1);
+}
+
+void RunRecorder::close_phase()
+{
+    if (!trajectory_) return;
+    trajectory_->finish();
+    if (!sewing_phase_) frames_ = trajectory_->frame_count();
+    trajectory_.reset();
+}
+
+void RunRecorder::report(const std::string& phase, const StepEvent& event, int steps)
+{
+    ProgressState state;
+    state.phase = phase;
+    state.time = event.time;
+    state.step = steps;
+    state.frames = frame_count();
+    if (!sewing_phase_) state.residual = event.residual;   // while sewing it is a gap
+    progress_->update(state);
+}
+
+void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force)
+{
+    iterations_since_frame_ += event.newton_iterations;
+    relaxed_since_frame_ = relaxed_since_frame_ || (event.dt == 0 && event.newton_iterations > 0);
+    const double interval = 1 / scene_.solver.frame_rate;
+    const bool due = scene_.output.frames && event.dt > 0 && event.time >= next_frame_ - 1e-9;
+    const bool moved = event.time > last_frame_ || relaxed_since_frame_;
+    if (!trajectory_ || !(due || (force && moved))) return;
+    const TraceScope scope("write_frame");
+    FrameScalars scalars;
+    scalars.time = event.time > last_frame_ ? event.time : last_frame_ + interval;
+    scalars.kinetic_energy = phase.newton().kinetic_energy();
+    scalars.total_energy = phase.newton().potential_energy() + scalars.kinetic_energy;
+    scalars.residual = event.residual;
+    scalars.wall_seconds = wall_seconds;
+    scalars.contacts = phase.contact() ? phase.contact()->contact_count() : 0;
+    scalars.iterations = iterations_since_frame_;
+    trajectory_->write_frame(phase.positions(), scalars);
+    iterations_since_frame_ = 0;
+    relaxed_since_frame_ = false;
+    last_frame_ = scalars.time;
+    next_frame_ = frame_time_after(scalars.time);
+}
+
+void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const std::vector<TriangleMesh>& bodies)
+{
+    const Cloth& cloth = model_.model.cloth;
+    std::vector<std::vector<Face>> faces(cloth.panels.size());
+    const std::vector<Face> outward = outward_faces(cloth);
+    std::vector<ObjObject> objects;
+    for (int p = 0; p < int(cloth.panels.size()); ++p) {
+        const ClothPanel& panel = cloth.panels[p];
+        for (int f = panel.first_face; f < panel.first_face + panel.face_count; ++f) {
+            Face face = outward[f];
+            for (int& v : face) v -= panel.first_vertex;
+            faces[p].push_back(face);
+        }
+        const auto range = [&](const auto& all) { return std::span(all).subspan(panel.first_vertex, panel.vertex_count); };
+        objects.push_back({panel.name, range(positions), faces[p], range(cloth.panel_coordinates)});
+    }
+    write_obj(folder_ + "/final.obj", objects);
+    if (bodies.empty()) return;
+    objects.clear();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        objects.push_back({model_.model.bodies[b].name, bodies[b].vertices, bodies[b].faces});
+    write_obj(folder_ + "/body.obj", objects);
+}
+
+void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topology,
+                       const std::vector<TriangleMesh>& bodies)
+{
+    if (!scene_.output.picture) return;
+    const TraceScope scope("picture");
+    PictureOptions options;
+    options.width = scene_.output.picture_width;
+    options.samples_per_axis = scene_.output.picture_samples;
+    draw_cloth(folder_ + "/preview.png", model_.model.cloth, bodies, positions, topology, options);
+}
+
+// Of the last frame as it is written, where the files allow it to be counted again.
+void RunRecorder::count_intersections(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
+                                      const std::vector<TriangleMesh>& bodies) const
+{
+    const TraceScope scope("count_intersections");
+    const double spacing = grid_spacing(position_grid(scene_.output.precision));
+    std::vector<Vec3> written;
+    for (const Vec3& x : positions) written.push_back(written_position(x, spacing).cast<double>());
+    if (!std::all_of(written.begin(), written.end(), [](const Vec3& x) { return x.allFinite(); })) return;
+    const std::vector<Face> faces = shared_faces(model_.model.cloth, topology);
+    summary.self_intersections = std::int64_t(self_intersections(written, faces).size());
+    if (bodies.empty()) return;
+    summary.body_intersections = 0;
+    for (const TriangleMesh& body : bodies)
+        summary.body_intersections += std::int64_t(mutual_intersections(written, faces, body).size());
+}
+
+void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
+                           const RunCounters& counters, const StabilityUse& stability,
+                           const std::vector<CoarseStage>& coarse_stages, const Profile& profile,
+                           double residual, double wall_seconds, const std::string& message)
+{
+    const std::vector<Vec3> positions = phase.positions();
+    std::vector<TriangleMesh> bodies;
+    for (const Body& body : model_.model.bodies) bodies.push_back(body_mesh_at(body, time));
+    write_meshes(positions, bodies);
+    draw(positions, phase.topology(), bodies);
+    const Cloth& cloth = model_.model.cloth;
+    RunSummary s;
+    s.status = status;
+    s.scene = scene_.name;
+    s.version = version;
+    s.precision = solve_precision(scene_, model_.model.cloth);
+    s.message = message;
+    s.threads = int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    s.vertices = phase.state().size.vertex_count;
+    s.triangles = int(cloth.faces.size());
+    s.steps = counters.steps;
+    s.frames = frames_;
+    s.newton_iterations = counters.newton_iterations;
+    s.linear_iterations = counters.linear_iterations;
+    s.simulated_s = counters.simulated;
+    for (const auto& [name, seconds] : counters.phases) s.phases.push_back({name, seconds});
+    for (const KernelRecord& k : profile.records()) s.kernels.push_back({k.name, k.calls, k.seconds, k.items, k.bytes});
+    s.active = plan.active;
+    for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
+    s.stability = stability;
+    for (const CoarseStage& c : coarse_stages)
+        s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds,
+                                  c.intersections, c.used});
+    s.residual = residual;
+    s.energy.membrane = in_plane_energy(phase.newton());
+    s.energy.bending = bending_energy(phase.newton());
+    s.energy.gravity = phase.newton().energy_of("gravity");
+    s.energy.contact = phase.newton().energy_of("body_contact") + phase.newton().energy_of("body_repulsion");
+    s.energy.kinetic = phase.newton().kinetic_energy();
+    const StretchMeasure stretch = measure_stretch(cloth, positions);
+    s.stretch = {stretch.min, stretch.max, stretch.p99};
+    if (query && !query->empty()) {
+        const State& state = phase.state();
+        const BodyGap gap = query->measure(state.pos.data(), state.size.vertex_stride, state.size.vertex_count);
+        s.body_max_penetration = gap.max_penetration_m;
+        s.body_min_gap = gap.min_gap_m;
+    }
+    count_intersections(s, positions, phase.topology(), bodies);
+    s.seam_count = int(cloth.seams.size());
+    if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
+    for (const PanelMeasure& p : measure_panels(cloth, positions))
+        s.panels.push_back({p.name, p.area_error, p.boundary_error});
+    s.warnings = model_.warnings;
+    s.peak_memory_bytes = peak_memory_bytes();
+    s.wall_s = wall_seconds;
+    write_summary(folder_ + "/summary.json", s);
+}
+
+}  // namespace selvage

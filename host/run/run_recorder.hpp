@@ -1,0 +1,78 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/scene/plan.hpp"
+#include "host/run/progressive.hpp"
+#include "host/run/run.hpp"
+#include "host/scene/scene_model.hpp"
+#include "host/solver/stepping/step_control.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/progress.hpp"
+#include "io/run/summary.hpp"
+#include "io/run/trajectory.hpp"
+
+namespace selvage {
+
+/// What a run counts from its first to its last step, over all resumptions.
+struct RunCounters {
+    int steps = 0;
+    int newton_iterations = 0;
+    int linear_iterations = 0;
+    double simulated = 0;                    ///< All phases [s].
+    std::map<std::string, double> phases;    ///< Wall seconds of each phase.
+};
+
+/// Writes what a run leaves in its folder.
+class RunRecorder {
+public:
+    /// @param resume  keep what an earlier run left and append to it
+    /// @throws InputError if the folder or a file in it cannot be written
+    RunRecorder(const Scene& scene, const SceneModel& model, const RunOptions& options, bool resume);
+    ~RunRecorder();
+
+    /// Opens the trajectory of a phase: sewing.h5 with the panels apart, or run.h5 with sewn vertices shared.
+    /// @param keep_frames  frames of an earlier run to keep; -1: start anew
+    void open_phase(const std::string& name, const Topology& topology, int keep_frames);
+    /// Closes the trajectory of the phase that has ended.
+    void close_phase();
+
+    /// Tells the user where the run stands.
+    void report(const std::string& phase, const StepEvent& event, int steps);
+    /// Writes a line of text for the user.
+    void say(const std::string& text) { progress_->message(text); }
+    /// Writes a frame if one is due at this time, or if `force` and the cloth has moved since the last one.
+    void write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force);
+    int frame_count() const { return trajectory_ ? trajectory_->frame_count() : 0; }
+
+    /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
+    /// @param time  at which the bodies are shown [s]
+    void conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
+                  const RunCounters& counters, const StabilityUse& stability,
+                  const std::vector<CoarseStage>& coarse_stages, const Profile& profile,
+                  double residual, double wall_seconds, const std::string& message);
+
+private:
+    double frame_time_after(double time) const;
+    void write_meshes(const std::vector<Vec3>& positions, const std::vector<TriangleMesh>& bodies);
+    void count_intersections(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
+                             const std::vector<TriangleMesh>& bodies) const;
+    void draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);
+
+    const Scene& scene_;
+    const SceneModel& model_;
+    std::string folder_;
+    std::optional<TrajectoryWriter> trajectory_;
+    std::unique_ptr<ProgressReport> progress_;
+    double next_frame_ = 0;          ///< Simulated time at which the next frame is due [s].
+    double last_frame_ = -1;         ///< Time of the last written frame [s].
+    int frames_ = 0;                 ///< Of run.h5.
+    int iterations_since_frame_ = 0;
+    bool relaxed_since_frame_ = false;   ///< By static iterations, which take no simulated time.
+    bool sewing_phase_ = false;
+};
+
+}  // namespace selvage

@@ -1,0 +1,133 @@
+#include "host/scene/body_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host/mannequin/mannequin.hpp"
+#include "io/mesh/mesh_obj.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr double degrees_per_pose = 4;   // a straight way between two poses shortens an arm by 0.06 % of its length
+
+MannequinMeasures body_measures(const BodyScene& body)
+{
+    MannequinMeasures measures = mannequin_size(body.size);
+    const auto take = [](double& to, double given) {
+        if (!std::isnan(given)) to = given;
+    };
+    take(measures.stature, body.stature);
+    take(measures.bust, body.bust);
+    take(measures.waist, body.waist);
+    take(measures.hips, body.hips);
+    take(measures.shoulder_width, body.shoulder_width);
+    take(measures.neck, body.neck);
+    take(measures.arm_length, body.arm_length);
+    take(measures.arm_angle, body.arm_angle);
+    return measures;
+}
+
+// Poses between two angles: the angle changes as the scene says, the arm's points go straight from pose to pose.
+void add_arm_poses(const TriangleMesh& start, const MannequinMeasures& measures, const BodyScene& body,
+                   std::vector<LoadedPose>& poses)
+{
+    double time = 0, angle = measures.arm_angle;
+    for (const KeyframeScene& key : body.keyframes) {
+        const double next = std::isnan(key.arm_angle) ? angle : key.arm_angle;
+        const int count = std::max(1, int(std::ceil(std::abs(next - angle) / degrees_per_pose)));
+        for (int k = 1; k <= count; ++k) {
+            const double s = double(k) / count, part = body.interpolation == "smooth" ? s * s * (3 - 2 * s) : s;
+            poses.push_back({time + s * (key.time - time),
+                             mannequin_with_arms(start, measures, angle + part * (next - angle)), false});
+        }
+        time = key.time;
+        angle = next;
+    }
+}
+
+std::vector<LoadedPose> mannequin_poses(const TriangleMesh& start, const BodyScene& body)
+{
+    std::vector<LoadedPose> poses;
+    const bool raises = std::any_of(body.keyframes.begin(), body.keyframes.end(),
+                                    [](const KeyframeScene& key) { return !std::isnan(key.arm_angle); });
+    if (raises) add_arm_poses(start, body_measures(body), body, poses);
+    return poses;
+}
+
+// A pose from a file, whose faces must be those of the body.
+std::vector<Vec3> read_pose(const std::string& file, const BodyScene& body, const TriangleMesh& start)
+{
+    TriangleMesh pose = read_obj(file, body.unit, body.up_axis);
+    if (pose.vertices.size() != start.vertices.size() || pose.faces != start.faces)
+        throw InputError({file, 0, 0, {}},
+                         fmt::format("a pose of {} vertices and {} faces", pose.vertices.size(), pose.faces.size()),
+                         fmt::format("the {} vertices and the {} faces of the body's own mesh, numbered as there",
+                                     start.vertices.size(), start.faces.size()));
+    return std::move(pose.vertices);
+}
+
+std::vector<LoadedPose> mesh_poses(const Scene& scene, const BodyScene& body, const TriangleMesh& start,
+                                   const std::vector<std::string>& sequence)
+{
+    std::vector<LoadedPose> poses;
+    for (std::size_t k = 0; k < sequence.size(); ++k) {
+        const double time = body.sequence_start + double(k) / body.sequence_rate;
+        if (time > 0) poses.push_back({time, read_pose(sequence[k], body, start), false});
+    }
+    const bool morphs = std::any_of(body.keyframes.begin(), body.keyframes.end(),
+                                    [](const KeyframeScene& key) { return !key.mesh.empty(); });
+    for (const KeyframeScene& key : body.keyframes) {
+        if (!morphs) break;
+        const std::vector<Vec3>& last = poses.empty() ? start.vertices : poses.back().vertices;
+        std::vector<Vec3> next = key.mesh.empty() ? last : read_pose(scene.resolve(key.mesh), body, start);
+        poses.push_back({key.time, std::move(next), body.interpolation == "smooth"});
+    }
+    return poses;
+}
+
+Body mesh_body(const Scene& scene, int index)
+{
+    const BodyScene& body = scene.bodies[index];
+    std::vector<std::string> sequence;
+    if (!body.sequence.empty())
+        sequence = sequence_files(scene.resolve(body.sequence), scene.place(fmt::format("body[{}].sequence", index)));
+    const std::string file = body.mesh.empty() ? sequence.front() : scene.resolve(body.mesh);
+    const TriangleMesh loaded = read_obj(file, body.unit, body.up_axis);
+    Body made = make_body(body, scene, index, loaded);
+    require_closed_body(made.mesh, file);
+    add_motion(made, body, mesh_poses(scene, body, loaded, sequence));
+    return made;
+}
+
+Body mannequin_body(const Scene& scene, int index)
+{
+    const BodyScene& body = scene.bodies[index];
+    const TriangleMesh mannequin = make_mannequin(body_measures(body), scene.place(fmt::format("body[{}]", index)));
+    Body made = make_body(body, scene, index, mannequin);
+    add_motion(made, body, mannequin_poses(mannequin, body));
+    return made;
+}
+
+}  // namespace
+
+std::vector<Body> build_bodies(const Scene& scene)
+{
+    std::vector<Body> bodies;
+    for (int i = 0; i < int(scene.bodies.size()); ++i) {
+        const BodyScene& body = scene.bodies[i];
+        if (body.shape == "mannequin") {
+            bodies.push_back(mannequin_body(scene, i));
+        } else if (body.shape == "mesh") {
+            bodies.push_back(mesh_body(scene, i));
+        } else {
+            bodies.push_back(make_body(body, scene, i));
+            add_motion(bodies.back(), body, {});
+        }
+    }
+    return bodies;
+}
+
+}  // namespace selvage

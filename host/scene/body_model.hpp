@@ -1,0 +1,12 @@
+#pragma once
+#include <vector>
+
+#include "host/scene/body_shapes.hpp"
+
+namespace selvage {
+
+/// Returns the bodies of a scene with their motions: reads their meshes and poses, makes mannequins.
+/// @throws InputError for a mesh that is no closed solid, or poses with other faces than the body's own
+std::vector<Body> build_bodies(const Scene& scene);
+
+}  // namespace selvage

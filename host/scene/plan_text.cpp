@@ -1,0 +1,72 @@
+#include "host/scene/plan_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "host/scene/plan.hpp"
+
+namespace selvage {
+namespace {
+
+double mebibytes(std::size_t bytes) { return double(bytes) / (1 << 20); }
+
+std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan& plan)
+{
+    nlohmann::ordered_json json;
+    json["scene"] = scene.name;
+    json["vertices"] = model.model.cloth.positions.size();
+    json["triangles"] = model.model.cloth.faces.size();
+    json["coarser_levels"] = model.model.coarser.size();
+    json["phases"] = nlohmann::json::array();
+    for (const PhasePlan& phase : plan.phases) {
+        nlohmann::ordered_json entry{{"name", phase.name},
+                                     {"field_bytes", phase.field_bytes},
+                                     {"solver_bytes", phase.solver_bytes},
+                                     {"launches", nlohmann::json::array()}};
+        for (const PlannedLaunch& launch : phase.launches)
+            entry["launches"].push_back(
+                {{"name", launch.name}, {"per", launch.items}, {"items", launch.count}, {"bytes", launch.bytes}});
+        json["phases"].push_back(entry);
+    }
+    json["active"] = plan.active;
+    json["skipped"] = nlohmann::json::array();
+    for (const SkippedFeature& skipped : plan.skipped)
+        json["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});
+    json["embree"] = plan.embree;
+    json["peak_bytes"] = plan.peak_bytes;
+    json["warnings"] = model.warnings;
+    return json.dump(2) + "\n";
+}
+
+std::string plan_text(const Scene& scene, const SceneModel& model, const RunPlan& plan)
+{
+    std::string text = fmt::format("{}: {} vertices, {} triangles in {} panels, {} seams, {} bodies, {} coarser levels\n",
+                                   scene.name, model.model.cloth.positions.size(), model.model.cloth.faces.size(),
+                                   model.model.cloth.panels.size(), model.model.cloth.seams.size(),
+                                   model.model.bodies.size(), model.model.coarser.size());
+    for (const PhasePlan& phase : plan.phases) {
+        text += fmt::format("\nphase {}: state {:.1f} MiB, linear solver about {:.1f} MiB\n", phase.name,
+                            mebibytes(phase.field_bytes), mebibytes(phase.solver_bytes));
+        for (const PlannedLaunch& launch : phase.launches)
+            text += fmt::format("  {:<14} {:>9} per {:<7} {:>9.2f} MiB\n", launch.name, launch.count, launch.items,
+                                mebibytes(launch.bytes));
+    }
+    text += "\nskipped\n";
+    for (const SkippedFeature& skipped : plan.skipped)
+        text += fmt::format("  {:<14} {}\n", skipped.name, skipped.reason);
+    text += fmt::format("\nmemory of the whole run: about {:.0f} MiB\n", mebibytes(plan.peak_bytes));
+    for (const std::string& warning : model.warnings) text += "warning: " + warning + "\n";
+    return text;
+}
+
+}  // namespace
+
+std::string describe_plan(const Scene& scene, bool json)
+{
+    const SceneModel model = build_scene_model(scene);
+    const RunPlan plan = make_plan(scene, model);
+    check_memory(scene, plan);
+    return json ? plan_json(scene, model, plan) : plan_text(scene, model, plan);
+}
+
+}  // namespace selvage

@@ -1,0 +1,222 @@
+#include "host/scene/scene_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "host/scene/body_model.hpp"
+#include "host/garment/assemble.hpp"
+#include "host/garment/catalogue.hpp"
+#include "host/garment/sheet.hpp"
+#include "host/model/transfer.hpp"
+#include "io/memory.hpp"
+#include "io/mesh/mesh_obj.hpp"
+#include "io/pattern/pattern_json.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr int coarsest_vertices = 300;   // factorising this costs less than a fine matrix product
+
+// A scene whose mesh alone could not be held is refused before it is made; the plan then counts exactly.
+constexpr double bytes_per_vertex = 3000;
+
+constexpr double sliver = 0.1;   // of a typical edge: triangles less high are told of
+
+// A level sheet has nothing that tells it which way to fold: it starts off its plane by up to this part of its extent,
+// in a smooth pattern that does not depend on the mesh, so that finer meshes fold alike.
+constexpr double ripple = 1e-4;
+constexpr int ripple_waves = 7;
+
+double least_height(const Cloth& cloth)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const Face& f : cloth.faces) {
+        const Vec2 a = cloth.panel_coordinates[f[1]] - cloth.panel_coordinates[f[0]];
+        const Vec2 b = cloth.panel_coordinates[f[2]] - cloth.panel_coordinates[f[0]];
+        const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()}));
+        least = std::min(least, std::abs(a.x() * b.y() - a.y() * b.x()) / longest);
+    }
+    return least;
+}
+
+Pattern read_pattern(const Scene& scene)
+{
+    constexpr std::string_view prefix = "builtin:";
+    const std::string& name = scene.garment.pattern;
+    Pattern pattern = name.starts_with(prefix) ? builtin_pattern(name.substr(prefix.size()), scene.garment.size)
+                                               : read_pattern_json(scene.resolve(name), scene.garment);
+    for (PatternPanel& panel : pattern.panels) panel.translation += scene.garment.translation;
+    return pattern;
+}
+
+Cloth sheet_at(const Scene& scene, int index, int resolution)
+{
+    SheetScene sheet = scene.sheets[index];
+    sheet.resolution = resolution;
+    const std::string key = "sheet[" + std::to_string(index) + "]";
+    PinsScene pins = scene.pins;
+    if (resolution != scene.sheets[index].resolution) pins.vertices.clear();   // indices are those of the finest mesh
+    Cloth cloth;
+    if (sheet.shape == "mesh") {
+        std::vector<Vec2> texture;
+        const TriangleMesh mesh = read_obj(scene.resolve(sheet.mesh), sheet.unit, sheet.up_axis, &texture);
+        cloth = sheet_from_mesh(mesh, texture, sheet, pins, sheet.mesh, key);
+    } else {
+        cloth = make_sheet(sheet, pins, scene.file, key);
+    }
+    add_pin_motions(cloth, scene.pin_motions, scene.file);
+    return cloth;
+}
+
+void check_sheet_size(const Scene& scene, int index)
+{
+    const SheetScene& sheet = scene.sheets[index];
+    const double rows = sheet.shape == "rectangle" ? sheet.resolution * sheet.height / sheet.width : sheet.resolution;
+    const double vertices = sheet.resolution * std::max(rows, 2.0), most = memory_limit(scene) / bytes_per_vertex;
+    if (sheet.shape == "mesh" || vertices <= most) return;
+    throw InputError(scene.place("sheet[" + std::to_string(index) + "].resolution"),
+                     fmt::format("{}, which means about {:.3g} vertices", sheet.resolution, vertices),
+                     fmt::format("at most {:.3g} vertices (solver.memory_limit)", most));
+}
+
+// A sum of plane waves, 1 to 4 across the extent, in directions that share no symmetry; in [-1, 1].
+double ripple_at(const Vec2& x)
+{
+    double sum = 0;
+    for (int wave = 0; wave < ripple_waves; ++wave) {
+        const double angle = 2.399963 * (wave + 1);   // the golden angle
+        const double number = 2 * std::numbers::pi * (1 + 0.5 * wave);
+        sum += std::cos(number * (x.x() * std::cos(angle) + x.y() * std::sin(angle)) + 1.7 * wave);
+    }
+    return sum / ripple_waves;
+}
+
+void add_ripple(Cloth& cloth)
+{
+    std::vector<char> held(cloth.positions.size());
+    for (int v : cloth.pinned) held[v] = 1;
+    for (const ClothPanel& panel : cloth.panels) {
+        const Face& f = cloth.faces[panel.first_face];
+        const Vec3 normal = (cloth.positions[f[1]] - cloth.positions[f[0]])
+                                .cross(cloth.positions[f[2]] - cloth.positions[f[0]])
+                                .normalized();
+        const double extent = 2 * std::sqrt(panel.rest_area / std::numbers::pi);
+        for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v)
+            if (!held[v]) cloth.positions[v] += ripple * extent * ripple_at(cloth.panel_coordinates[v] / extent) * normal;
+    }
+}
+
+// The copy of a garment with a number; the first is the garment itself.
+Cloth garment_copy(Cloth garment, const GarmentScene& scene, int copy)
+{
+    if (copy == 0) return garment;
+    garment.warnings.clear();
+    for (Vec3& x : garment.positions) x += copy * scene.copy_offset;
+    for (ClothPanel& panel : garment.panels) panel.name += fmt::format("_{}", copy + 1);
+    return garment;
+}
+
+// The cloth of the scene `level` halvings of its resolution away; empty if it cannot be made coarser.
+Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
+{
+    Cloth cloth;
+    const double factor = std::pow(2.0, level);
+    if (scene.has_garment()) {
+        const int copies = scene.garment.copies;
+        const Cloth garment =
+            assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric, scene.panel_fabrics,
+                             scene.garment.pattern, memory_limit(scene) / bytes_per_vertex / copies);
+        for (int copy = 0; copy < copies; ++copy) append_cloth(cloth, garment_copy(garment, scene.garment, copy));
+    }
+    for (int i = 0; i < int(scene.sheets.size()); ++i) {
+        const SheetScene& sheet = scene.sheets[i];
+        if (level > 0 && sheet.shape == "mesh") return {};
+        const int resolution = int(std::ceil((sheet.resolution - 1) / factor)) + 1;
+        append_cloth(cloth, sheet_at(scene, i, std::max(resolution, 3)));
+    }
+    return cloth;
+}
+
+void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& model)
+{
+    if (scene.solver.preconditioner == "block_jacobi") return;
+    const TraceScope scope("coarser_levels");
+    for (int level = 1; level < 10; ++level) {
+        const Cloth& finer = level == 1 ? model.cloth : model.coarser.back();
+        if (int(finer.positions.size()) <= coarsest_vertices) return;
+        Cloth coarse = cloth_at_level(scene, pattern, level);
+        // Where short outline edges keep the mesh fine, a coarser level is no longer worth its cost.
+        if (coarse.positions.empty() || coarse.positions.size() * 10 > finer.positions.size() * 7) return;
+        model.transfers.push_back(make_transfer(coarse, finer));
+        model.coarser.push_back(std::move(coarse));
+    }
+}
+
+}  // namespace
+
+SceneModel build_scene_model(const Scene& scene)
+{
+    const TraceScope scope("assemble");
+    SceneModel result;
+    Pattern pattern;
+    if (scene.has_garment()) pattern = read_pattern(scene);
+    for (int i = 0; i < int(scene.sheets.size()); ++i) check_sheet_size(scene, i);
+    result.model.cloth = cloth_at_level(scene, pattern, 0);
+    // A fabric that no panel is made of must not decide which terms run.
+    for (const ClothPanel& panel : result.model.cloth.panels) result.model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
+    result.model.bodies = build_bodies(scene);
+    add_coarser_levels(scene, pattern, result.model);
+    result.warnings = pattern.warnings;
+    const auto& odd = result.model.cloth.warnings;
+    result.warnings.insert(result.warnings.end(), odd.begin(), odd.end());
+    result.sews = !result.model.cloth.seam_pairs.empty();
+    result.edge_length = typical_edge(result.model.cloth);
+    result.least_height = least_height(result.model.cloth);
+    if (scene.contact.self && result.least_height < sliver * result.edge_length)
+        result.warnings.push_back(fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
+                                              "presses on cloth from less than that height only",
+                                              result.least_height, result.edge_length));
+    if (!scene.has_garment()) {
+        add_ripple(result.model.cloth);
+        for (Cloth& coarser : result.model.coarser) add_ripple(coarser);
+    }
+    return result;
+}
+
+SceneModel coarser_model(const SceneModel& model, std::size_t level)
+{
+    const ClothModel& whole = model.model;
+    const auto from = std::ptrdiff_t(level) + 1;
+    SceneModel result;
+    result.model = {whole.coarser[level],
+                    {whole.coarser.begin() + from, whole.coarser.end()},
+                    {whole.transfers.begin() + from, whole.transfers.end()},
+                    whole.fabrics,
+                    whole.bodies};
+    result.sews = model.sews;
+    result.edge_length = typical_edge(result.model.cloth);
+    result.least_height = least_height(result.model.cloth);
+    return result;
+}
+
+double memory_limit(const Scene& scene)
+{
+    return scene.solver.memory_limit > 0 ? scene.solver.memory_limit : 0.9 * double(physical_memory_bytes());
+}
+
+Box cloth_reach(const Cloth& cloth)
+{
+    Vec3 low = cloth.positions.front(), high = low;
+    for (const Vec3& x : cloth.positions) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    const Vec3 margin = Vec3::Constant(0.25 * (high - low).norm());
+    return {low - margin, high + margin};
+}
+
+}  // namespace selvage

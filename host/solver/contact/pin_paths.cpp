@@ -1,0 +1,76 @@
+#include "host/solver/contact/pin_paths.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace selvage {
+namespace {
+
+constexpr int steps_per_look = 4;     // parts of a time whose ways are added up, so that no turn is missed
+
+Vec3 moved(const PinMotion& motion, const Vec3& x, double time)
+{
+    const double passed = std::clamp(time - motion.start, 0.0, motion.end - motion.start);
+    const double angle = 2 * std::numbers::pi * motion.turns * passed / (motion.end - motion.start);
+    return motion.point + Eigen::AngleAxisd(angle, motion.axis) * (x - motion.point) + passed * motion.velocity;
+}
+
+}  // namespace
+
+PinPaths::PinPaths(const Cloth& cloth, const Topology& topology) : motions_(cloth.pin_motions)
+{
+    std::map<int, Pin> pin_of;   // by particle
+    for (int m = 0; m < int(motions_.size()); ++m) {
+        end_ = std::max(end_, motions_[m].end);
+        for (const int v : motions_[m].vertices) {
+            const int particle = topology.particle_of[v];
+            Pin& pin = pin_of.try_emplace(particle, Pin{particle, cloth.positions[v], {}}).first->second;
+            pin.motions.push_back(m);
+        }
+    }
+    for (auto& [particle, pin] : pin_of) pins_.push_back(std::move(pin));
+}
+
+Vec3 PinPaths::position(const Pin& pin, double time) const
+{
+    Vec3 x = pin.start;
+    for (const int m : pin.motions) x = moved(motions_[m], x, time);
+    return x;
+}
+
+double PinPaths::longest_step(double time, double room, double way) const
+{
+    const auto too_far = [&](double dt) {
+        return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) {
+            double sum = 0;
+            for (int k = 0; k < steps_per_look; ++k)
+                sum += (position(pin, time + (k + 1) * dt / steps_per_look) -
+                        position(pin, time + k * dt / steps_per_look)).norm();
+            return sum > way;
+        });
+    };
+    double dt = room;
+    while (too_far(dt) && dt > 1e-6 * room) dt *= 0.5;
+    return dt;
+}
+
+std::vector<std::pair<int, Vec3>> PinPaths::places(double time) const
+{
+    std::vector<std::pair<int, Vec3>> result;
+    for (const Pin& pin : pins_) result.push_back({pin.particle, position(pin, time)});
+    return result;
+}
+
+void PinPaths::move_to(State& state, double time) const
+{
+    const int vs = state.size.vertex_stride;
+    for (const Pin& pin : pins_) {
+        const Vec3 x = position(pin, time);
+        for (int c = 0; c < 3; ++c) state.pos[c * vs + pin.particle] = x[c];
+    }
+}
+
+}  // namespace selvage

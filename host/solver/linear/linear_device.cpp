@@ -1,0 +1,216 @@
+// The linear solver of the implicit steps. Built twice, with SELVAGE_LINEAR = float and double.
+#include "host/solver/linear/linear_solver.hpp"
+
+#include <optional>
+
+#include "host/solver/linear/block_matrix.hpp"
+#include "host/solver/linear/multigrid.hpp"
+#include "host/solver/state/pair_list.hpp"
+#include "host/solver/terms/terms.hpp"
+#include "kernels/stages/couple_hinges.h"
+
+namespace selvage {
+namespace {
+
+class ConjugateGradients final : public LinearSolver {
+public:
+    ConjugateGradients(const State& state, const LinearOptions& options, const ParticleTransfers& transfers)
+        : options_(options), pattern_(make_pattern(state)), stride_(state.size.vertex_stride)
+    {
+        matrix_.row_begin = pattern_.row_begin;
+        matrix_.column = pattern_.column;
+        matrix_.block.resize(9 * pattern_.column.size());
+        if (!state.hinge_slope.empty()) {
+            turn_.resize(std::size_t(state.size.hinge_count));
+            moment_.resize(turn_.size());
+        }
+        for (LinearVector* v : {&x_, &r_, &z_, &p_, &q_}) v->resize(3 * std::size_t(pattern_.rows()));
+        if (options.preconditioner != Preconditioner::multigrid || transfers.empty()) return;
+        std::vector<char> pinned(pattern_.rows());
+        for (int v = 0; v < pattern_.rows(); ++v) pinned[v] = state.inv_mass[v] == 0;
+        multigrid_.emplace(pattern_, pinned, transfers);
+    }
+
+    void assemble(const State& state, double inertia, bool solves) override
+    {
+        const assemble_args args{pattern_.row_begin.data(), pattern_.column.data(), matrix_.block.data(),
+                                 state.mass.data(), state.inv_mass.data(),
+                                 state.vertex_stiffness.empty() ? nullptr : state.vertex_stiffness.data(),
+                                 state.size.vertex_stride, inertia};
+        const assemble_kind kinds[] = {
+#define KIND(kind, corner_count)                                                                                  \
+    {state.kind##_slots.data(), state.kind##_slot.data(), pattern_.kind##_place.data(),                           \
+     state.kind##_stiffness.empty() ? nullptr : state.kind##_stiffness.data(), corner_count, state.size.kind##_stride},
+            ELEMENT_KINDS(KIND)
+#undef KIND
+        };
+        rows_ = items_of(state, ItemKind::vertex);
+        // What sleeps is as good as pinned: its rows are not looked at, and vectors hold zero there.
+        if (rows_.list)
+            for (LinearVector* v : {&x_, &r_, &z_, &p_, &q_, &turn_, &moment_}) std::fill(v->begin(), v->end(), linear(0));
+        for_each_item(rows_, [&args, &kinds](int row) {
+            assemble_clear(row, &args);
+            for (const assemble_kind& kind : kinds)
+                if (kind.stiffness) assemble_elements(row, &args, &kind);
+            assemble_finish(row, &args);
+        });
+        state_ = &state;
+        if (solves && multigrid_)
+            multigrid_->build(matrix_, rows_, state.awake.is_awake);
+        else if (solves)
+            jacobi_.build(rows_, matrix_);
+    }
+
+    void multiply(const double* x, double* y) override
+    {
+        const int n = pattern_.rows(), stride = stride_;
+        for_each_item(n, [=, p = p_.data()](int v) {
+            for (int c = 0; c < 3; ++c) p[3 * v + c] = linear(x[c * stride + v]);
+        });
+        multiply(p_, q_);
+        for_each_item(n, [=, q = q_.data()](int v) {
+            for (int c = 0; c < 3; ++c) y[c * stride + v] = double(q[3 * v + c]);
+        });
+    }
+
+    LinearResult solve(const double* b, double tolerance, double* x, int at_most) override
+    {
+        LinearResult result;
+        const int n = pattern_.rows(), stride = stride_;
+        const double scale = std::sqrt(sum_items(rows_, [=](int v) {
+            return b[v] * b[v] + b[stride + v] * b[stride + v] + b[2 * stride + v] * b[2 * stride + v];
+        }));
+        for_each_item(rows_, [=, r = r_.data(), y = x_.data()](int v) {
+            for (int c = 0; c < 3; ++c) {
+                r[3 * v + c] = linear(scale > 0 ? b[c * stride + v] / scale : 0);
+                y[3 * v + c] = 0;
+            }
+        });
+        result.relative_residual = scale > 0 ? 1 : 0;
+        if (scale > 0) iterate(tolerance, std::min(at_most, options_.max_iterations), result);
+        for_each_item(n, [=, y = x_.data()](int v) {
+            for (int c = 0; c < 3; ++c) x[c * stride + v] = scale * double(y[3 * v + c]);
+        });
+        return result;
+    }
+
+    std::size_t bytes() const override
+    {
+        return matrix_.bytes() + jacobi_.bytes() + (5 * x_.size() + 2 * turn_.size()) * sizeof(linear) +
+               (multigrid_ ? multigrid_->bytes() : 0) +
+               (pattern_.face_place.size() + pattern_.hinge_place.size()) * sizeof(std::uint16_t);
+    }
+
+    void run(LinearOperation operation) override
+    {
+        switch (operation) {
+        case LinearOperation::product: multiply(p_, q_); break;
+        case LinearOperation::precondition: precondition(); break;
+        case LinearOperation::dot: dot(rows_, r_, z_); break;
+        case LinearOperation::update: advance(linear(1e-12)); break;
+        }
+    }
+
+private:
+    // y = A x: the assembled matrix, and what of the stiffness of plates and contacts does not stand in it.
+    void multiply(const LinearVector& x, LinearVector& y)
+    {
+        matrix_.multiply(rows_, x, y);
+        if (!turn_.empty()) couple_hinges(x, y);
+        if (state_->size.pair_count > 0) couple_pairs(x, y);
+    }
+
+    void couple_hinges(const LinearVector& x, LinearVector& y)
+    {
+        const State& s = *state_;
+        const couple_args args{s.hinge_vertex.data(), s.hinge_slope.data(), s.hinge_rigidity.data(),
+                               s.coupling_slots.data(), s.coupling_hinge.data(), s.coupling_rigidity.data(),
+                               s.hinge_slots.data(), s.hinge_slot.data(), x.data(), turn_.data(), moment_.data(),
+                               y.data(), s.size.hinge_stride, s.size.vertex_stride};
+        const Items hinges = items_of(s, ItemKind::hinge);
+        launch<couple_turn>(hinges, args);
+        launch<couple_moment>(hinges, args);
+        launch<couple_gather>(rows_, args);
+    }
+
+    void couple_pairs(const LinearVector& x, LinearVector& y)
+    {
+        const State& s = *state_;
+        relative_.resize(6 * std::size_t(s.size.pair_count));
+        const couple_pairs_args args{pair_list_of(s), x.data(), relative_.data(), y.data(), s.inv_mass.data()};
+        launch<couple_pairs_relative>(s.size.pair_count, args);
+        launch<couple_pairs_gather>(rows_, args);
+    }
+
+    void precondition()
+    {
+        if (multigrid_)
+            multigrid_->apply(matrix_, r_, z_);
+        else
+            jacobi_.apply(rows_, r_, z_);
+    }
+
+    // x += step p, r -= step q.
+    void advance(linear step)
+    {
+        for_each_item(rows_, [=, x = x_.data(), r = r_.data(), p = p_.data(), q = q_.data()](int row) {
+            for (int i = 3 * row; i < 3 * row + 3; ++i) {
+                x[i] += step * p[i];
+                r[i] -= step * q[i];
+            }
+        });
+    }
+
+    void iterate(double tolerance, int at_most, LinearResult& result)
+    {
+        linear *z = z_.data(), *p = p_.data();
+        precondition();
+        p_ = z_;
+        double rz = dot(rows_, r_, z_);
+        while (result.iterations < at_most) {
+            multiply(p_, q_);
+            const double curvature = dot(rows_, p_, q_);
+            if (!(curvature > 0) || !(rz > 0)) {
+                result.negative_curvature = true;
+                if (result.iterations == 0) x_ = p_;   // a descent direction is better than none
+                return;
+            }
+            advance(linear(rz / curvature));
+            ++result.iterations;
+            result.relative_residual = std::sqrt(dot(rows_, r_, r_));
+            if (result.relative_residual <= tolerance) return;
+            precondition();
+            const double next = dot(rows_, r_, z_);
+            const linear turn = linear(next / rz);
+            rz = next;
+            for_each_item(rows_, [=](int row) {
+                for (int i = 3 * row; i < 3 * row + 3; ++i) p[i] = z[i] + turn * p[i];
+            });
+        }
+    }
+
+    LinearOptions options_;
+    BlockPattern pattern_;
+    int stride_;
+    BlockMatrix matrix_;
+    BlockJacobi jacobi_;
+    std::optional<Multigrid> multigrid_;
+    const State* state_ = nullptr;   // of the last assembly
+    Items rows_;                     // those awake then
+    LinearVector x_, r_, z_, p_, q_;
+    LinearVector turn_, moment_;     // per hinge; empty without a plate
+    LinearVector relative_;          // per pair in contact
+};
+
+}  // namespace
+
+#define JOIN_EXPANDED(a, b) a##b
+#define JOIN(a, b) JOIN_EXPANDED(a, b)
+std::unique_ptr<LinearSolver> JOIN(make_linear_solver_, SELVAGE_LINEAR)(const State& state,
+                                                                       const LinearOptions& options,
+                                                                       const ParticleTransfers& transfers)
+{
+    return std::make_unique<ConjugateGradients>(state, options, transfers);
+}
+
+}  // namespace selvage

@@ -1,0 +1,80 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "host/model/cloth.hpp"
+#include "host/solver/state/state.hpp"
+#include "host/solver/state/topology.hpp"
+
+namespace selvage {
+
+/// Where the blocks of the stiffness matrix stand, and where each element adds to them.
+struct BlockPattern {
+    std::vector<int> row_begin;   ///< Particle count + 1.
+    std::vector<int> column;      ///< Sorted within a row.
+    /// Per entry of the kind's gather list and corner: the block within the row.
+    std::vector<std::uint16_t> face_place, hinge_place, stitch_place, spring_place;
+
+    int rows() const { return int(row_begin.size()) - 1; }
+    int blocks() const { return int(column.size()); }
+};
+
+/// Finds the pattern from the gather lists of an allocated and filled state.
+BlockPattern make_pattern(const State& state);
+
+enum class Preconditioner { block_jacobi, multigrid };
+
+struct LinearOptions {
+    Preconditioner preconditioner = Preconditioner::block_jacobi;
+    int max_iterations = 600;
+};
+
+struct LinearResult {
+    int iterations = 0;
+    double relative_residual = 1;      ///< |b - A x| / |b|.
+    bool negative_curvature = false;   ///< A direction p with p.Ap <= 0 was met; x is what stood before it.
+};
+
+/// The parts of one iteration, to be measured one by one.
+enum class LinearOperation { product, precondition, dot, update };
+
+/// Preconditioned conjugate gradients on 3x3 blocks (D11).
+class LinearSolver {
+public:
+    virtual ~LinearSolver() = default;
+    /// Gathers the stiffness slots of the state; adds inertia * mass to the diagonal. @param inertia 1/dt^2 [1/s^2]
+    /// A plate's hinge slopes and couplings stay in the state, which must outlive the products that follow.
+    /// @param solves  false: only products are wanted, so that the preconditioner need not be made
+    virtual void assemble(const State& state, double inertia, bool solves = true) = 0;
+    /// y = A x with the assembled matrix, in its precision. @param x, y  three planes of state.size.vertex_stride
+    virtual void multiply(const double* x, double* y) = 0;
+    /// Solves A x = b to |b - A x| <= tolerance |b|.
+    /// @param b  three planes of state.size.vertex_stride; pinned vertices must hold 0
+    /// @param x  like b; overwritten   @param at_most  iterations, at most those of the options
+    virtual LinearResult solve(const double* b, double tolerance, double* x, int at_most) = 0;
+    LinearResult solve(const double* b, double tolerance, double* x)
+    {
+        return solve(b, tolerance, x, std::numeric_limits<int>::max());
+    }
+    virtual std::size_t bytes() const = 0;   ///< Memory held.
+    /// Runs one operation on the vectors that the last solve left behind.
+    virtual void run(LinearOperation operation) = 0;
+};
+
+/// Interpolations between particles from the coarse to the next finer level, finest first; may be empty.
+using ParticleTransfers = std::vector<Transfer>;
+
+/// Turns interpolations between cloth vertices into ones between particles.
+Transfer particle_transfer(const Transfer& transfer, const Topology& coarse, const Topology& fine);
+
+/// Builds a solver whose matrices and vectors are float.
+std::unique_ptr<LinearSolver> make_linear_solver_float(const State& state, const LinearOptions& options,
+                                                       const ParticleTransfers& transfers);
+/// The same in double.
+std::unique_ptr<LinearSolver> make_linear_solver_double(const State& state, const LinearOptions& options,
+                                                        const ParticleTransfers& transfers);
+
+}  // namespace selvage

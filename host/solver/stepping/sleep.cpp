@@ -1,0 +1,144 @@
+#include "host/solver/stepping/sleep.hpp"
+
+#include <algorithm>
+
+namespace selvage {
+namespace {
+
+constexpr int nap = 8;                // steps until all wake and are looked at again
+constexpr int rings = 3;              // of faces around what moves that stay awake
+constexpr double hardly = 0.04;       // of the fastest vertex' speed
+constexpr double balanced = 0.1;      // of the mean of |f|^2
+constexpr double worth_while = 0.25;  // part of the vertices: where more move all may be about to
+
+double squared(const std::vector<real>& field, int stride, int v)
+{
+    return field[v] * field[v] + field[stride + v] * field[stride + v] + field[2 * stride + v] * field[2 * stride + v];
+}
+
+// Wakes all corners of items that have one awake. Kinds that no term acts on have no corners.
+void spread(const std::vector<int>& corners, int stride, int count, int per_item, std::vector<char>& is_awake)
+{
+    if (corners.empty()) return;
+    const std::vector<char> before = is_awake;
+    for (int item = 0; item < count; ++item) {
+        bool any = false;
+        for (int c = 0; c < per_item; ++c) {
+            const int v = corners[c * stride + item];   // corners of bodies are below zero
+            any = any || (v >= 0 && before[v]);
+        }
+        for (int c = 0; any && c < per_item; ++c)
+            if (const int v = corners[c * stride + item]; v >= 0) is_awake[v] = 1;
+    }
+}
+
+// Those that move, or are about to, with what is around them.
+std::vector<char> restless(const Phase& phase)
+{
+    const State& s = phase.state();
+    const int n = s.size.vertex_count, vs = s.size.vertex_stride;
+    const std::vector<real>& force = phase.newton().downhill();
+    const double fastest = max_items(n, [&](int v) { return squared(s.vel, vs, v); });
+    const double mean = sum_items(n, [&](int v) { return squared(force, vs, v); }) / n;
+    std::vector<char> is_awake(std::size_t(n), 0);
+    for_each_item(n, [&](int v) {
+        is_awake[v] = squared(s.vel, vs, v) > hardly * hardly * fastest || squared(force, vs, v) > balanced * mean;
+    });
+    for (int ring = 0; ring < rings; ++ring) {
+        spread(s.face_vertex, s.size.face_stride, s.size.face_count, 3, is_awake);
+        spread(s.spring_vertex, s.size.spring_stride, s.size.spring_count, 2, is_awake);
+        if (ring == 0) spread(s.pair_vertex, s.size.pair_stride, s.size.pair_count, 4, is_awake);
+    }
+    return is_awake;
+}
+
+std::vector<char> items_awake(const std::vector<int>& corners, int stride, int count, int per_item,
+                              const std::vector<char>& is_awake)
+{
+    std::vector<char> result(std::size_t(count), 0);
+    if (corners.empty()) return result;
+    for_each_item(count, [&](int item) {
+        for (int c = 0; c < per_item; ++c) result[item] = result[item] || is_awake[corners[c * stride + item]];
+    });
+    return result;
+}
+
+std::vector<int> list_of(const std::vector<char>& is_awake)
+{
+    std::vector<int> result;
+    for (std::size_t k = 0; k < is_awake.size(); ++k)
+        if (is_awake[k]) result.push_back(int(k));
+    return result;
+}
+
+// A hinge that turns changes the moments of those that a plate couples it to.
+std::vector<char> hinges_awake(const State& s, const std::vector<char>& is_awake)
+{
+    const std::vector<char> turns = items_awake(s.hinge_vertex, s.size.hinge_stride, s.size.hinge_count, 4, is_awake);
+    std::vector<char> result = turns;
+    if (!s.coupling_slots.empty())
+        for_each_item(s.size.hinge_count, [&](int h) {
+            for (int k = s.coupling_slots[h]; k < s.coupling_slots[s.size.hinge_stride + h]; ++k)
+                result[h] = result[h] || turns[s.coupling_hinge[k]];
+        });
+    return result;
+}
+
+}  // namespace
+
+void put_to_sleep(Phase& phase, const std::vector<char>& is_awake, double force_squared)
+{
+    const TraceScope scope("fall_asleep");
+    State& s = phase.state();
+    AwakeItems& awake = s.awake;
+    awake.all = false;
+    awake.is_awake = is_awake;
+    awake.force_squared = force_squared;
+    awake.vertex = list_of(is_awake);
+    awake.hinge = list_of(hinges_awake(s, is_awake));
+#define LIST(kind, corners) \
+    awake.kind = list_of(items_awake(s.kind##_vertex, s.size.kind##_stride, s.size.kind##_count, corners, is_awake));
+    LIST(face, 3) LIST(stitch, 2) LIST(spring, 2)
+#undef LIST
+    for_each_item(s.size.vertex_count, [&s, &is_awake, vs = s.size.vertex_stride](int v) {
+        if (is_awake[v]) return;
+        for (int c = 0; c < 3; ++c) s.vel[c * vs + v] = 0;
+    });
+    if (phase.cloth_contact()) phase.cloth_contact()->let_sleep(&awake.is_awake);
+}
+
+void wake(Phase& phase)
+{
+    phase.state().awake.all = true;
+    if (phase.cloth_contact()) phase.cloth_contact()->let_sleep(nullptr);
+}
+
+bool may_sleep(const Phase& phase)
+{
+    const ClothContact* cloth = phase.cloth_contact();
+    return !phase.has_rules() && !(cloth && (cloth->counts().tangles > 0 || cloth->counts().inside > 0));
+}
+
+void rest_in_places(Phase& phase, int& steps_left)
+{
+    State& s = phase.state();
+    const int vs = s.size.vertex_stride;
+    const std::vector<real>& force = phase.newton().downhill();
+    if (steps_left > 0) {
+        const double moving = sum_items(items_of(s, ItemKind::vertex), [&](int v) { return squared(force, vs, v); });
+        --steps_left;
+        // What sleeps holds it up once its own forces are what is left.
+        if (moving < s.awake.force_squared) steps_left = 0;
+        if (steps_left == 0) wake(phase);
+        return;
+    }
+    if (!may_sleep(phase)) return;
+    const std::vector<char> is_awake = restless(phase);
+    const double awake = double(std::count(is_awake.begin(), is_awake.end(), 1));
+    if (awake > worth_while * s.size.vertex_count || awake == 0) return;
+    const double left = sum_items(s.size.vertex_count, [&](int v) { return is_awake[v] ? 0.0 : squared(force, vs, v); });
+    put_to_sleep(phase, is_awake, left);
+    steps_left = nap;
+}
+
+}  // namespace selvage

@@ -1,0 +1,50 @@
+#pragma once
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "host/solver/terms/params.hpp"
+#include "host/parallel/profile.hpp"
+#include "host/solver/state/state.hpp"
+#include "host/solver/terms/terms.hpp"
+
+namespace selvage {
+
+/// The terms that are active in a phase, evaluated together at the present state: what every integrator is made of.
+class ActiveTerms {
+public:
+    /// All references must outlive this object; which terms are active is decided here.
+    ActiveTerms(State& state, const Params& params, Profile& profile);
+
+    /// Writes the net force of all terms to state.force [N]. @param dissipative  with those that depend on velocity
+    void evaluate_forces(bool dissipative);
+    /// Writes the stiffness of all terms to the element slots [N/m].
+    /// @param dissipative_scale  times d2R/dv2 is added for the dissipative terms [1/s]; 0: without them
+    void evaluate_stiffness(bool projected, double dissipative_scale);
+    /// Writes d2R/dv2 of the dissipative terms alone to state.vertex_stiffness [kg/s].
+    void evaluate_drag();
+
+    /// Of all conservative terms [J], of what is awake; counted in the profile.
+    double energy();
+    double potential_energy() const;                 ///< Of the whole cloth, outside the profile [J].
+    double dissipation() const;                      ///< R of all dissipative terms [W].
+    double kinetic_energy() const;                   ///< [J]
+    double energy_of(std::string_view term) const;   ///< Energy of one term [J]; 0 if inactive.
+    bool dissipates() const { return !dissipative_.empty(); }
+
+private:
+    template <class Work>
+    auto timed(const Term& term, std::string_view name, std::int64_t bytes, const Work& work);
+
+    State& state_;
+    const Params& params_;
+    Profile& profile_;
+
+    struct Traffic {
+        std::int64_t value, force, stiffness;   ///< [bytes]
+    };
+    std::vector<const Term*> conservative_, dissipative_;
+    std::map<const Term*, Traffic> traffic_;
+};
+
+}  // namespace selvage

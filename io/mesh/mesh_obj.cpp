@@ -1,0 +1,317 @@
+#include "io/mesh/mesh_obj.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include "io/atomic_file.hpp"
+#include "io/mesh/axes.hpp"
+#include "io/errors.hpp"
+#include "io/file_text.hpp"
+
+namespace selvage {
+namespace {
+
+bool is_space(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+// Takes the next word off a line; empty at its end.
+std::string_view take_word(std::string_view& line)
+{
+    std::size_t begin = 0;
+    while (begin < line.size() && is_space(line[begin])) ++begin;
+    std::size_t end = begin;
+    while (end < line.size() && !is_space(line[end])) ++end;
+    const std::string_view word = line.substr(begin, end - begin);
+    line.remove_prefix(end);
+    return word;
+}
+
+std::string_view trimmed(std::string_view line)
+{
+    while (!line.empty() && is_space(line.front())) line.remove_prefix(1);
+    while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
+    return line;
+}
+
+std::string quoted(std::string_view text)
+{
+    constexpr std::size_t limit = 60;
+    return "`" + std::string(text.substr(0, limit)) + (text.size() > limit ? "...`" : "`");
+}
+
+struct Corner {
+    int vertex = 0;
+    int texture = -1;   ///< -1: none.
+};
+
+class ObjReader {
+public:
+    explicit ObjReader(const std::string& path) : path_(path) {}
+
+    void read(std::string_view text);
+    void fill_texture(std::vector<Vec2>& texture) const;
+
+    TriangleMesh mesh;
+    std::vector<int> face_lines;
+
+private:
+    void read_line(std::string_view line);
+    void read_face(std::string_view line);
+    void start_part(std::string_view name);
+    void finish_parts();
+    double read_number(std::string_view& line, const char* meaning) const;
+    Corner read_corner(std::string_view word);
+    int read_index(std::string_view& word, int count, const char* kind, int& largest, int& largest_line) const;
+    [[noreturn]] void refuse(int line, std::string_view found, std::string_view expected) const;
+
+    std::string path_;
+    int line_ = 0;
+    std::vector<Vec2> texture_;
+    std::vector<Corner> corners_;
+    std::vector<std::array<int, 3>> face_textures_;
+    int largest_vertex_ = -1, largest_vertex_line_ = 0;
+    int largest_texture_ = -1, largest_texture_line_ = 0;
+};
+
+void ObjReader::refuse(int line, std::string_view found, std::string_view expected) const
+{
+    throw InputError({path_, line, 0, {}}, found, expected);
+}
+
+void ObjReader::read(std::string_view text)
+{
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        ++line_;
+        read_line(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    if (mesh.faces.empty()) refuse(0, "no faces", "an OBJ file with lines `f i j k`");
+    const auto check = [&](int largest, int line, std::size_t count, const std::string& kind) {
+        if (largest >= int(count))
+            refuse(line, "index " + std::to_string(largest + 1) + " of a " + kind,
+                   "an index from 1 to " + std::to_string(count));
+    };
+    check(largest_vertex_, largest_vertex_line_, mesh.vertices.size(), "vertex");
+    check(largest_texture_, largest_texture_line_, texture_.size(), "texture coordinate");
+    finish_parts();
+}
+
+void ObjReader::read_line(std::string_view line)
+{
+    std::string_view rest = line;
+    const std::string_view keyword = take_word(rest);
+    if (keyword == "v") {
+        const double x = read_number(rest, "x"), y = read_number(rest, "y"), z = read_number(rest, "z");
+        mesh.vertices.emplace_back(x, y, z);
+    } else if (keyword == "vt") {
+        const double u = read_number(rest, "u");
+        texture_.emplace_back(u, trimmed(rest).empty() ? 0 : read_number(rest, "v"));
+    } else if (keyword == "f") {
+        read_face(rest);
+    } else if (keyword == "o" || keyword == "g") {
+        start_part(trimmed(rest));
+    }
+}
+
+double ObjReader::read_number(std::string_view& line, const char* meaning) const
+{
+    constexpr double limit = 1e9;
+    const std::string_view word = take_word(line);
+    std::string_view digits = word;
+    if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
+    double value = 0;
+    const std::from_chars_result end = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool tiny = end.ec == std::errc::result_out_of_range && digits.find_first_of("eE") + 1 == digits.find('-', 1);
+    if ((end.ec != std::errc() && !tiny) || end.ptr != digits.data() + digits.size() || !(std::abs(value) <= limit))
+        refuse(line_, word.empty() ? "no number" : quoted(word),
+               "a finite number for " + std::string(meaning) + ", at most 1e9 in magnitude");
+    return value;
+}
+
+int ObjReader::read_index(std::string_view& word, int count, const char* kind, int& largest, int& largest_line) const
+{
+    int index = 0;
+    const std::from_chars_result end = std::from_chars(word.data(), word.data() + word.size(), index);
+    if (end.ec != std::errc() || index == 0 || index < -count)
+        refuse(line_, "index " + quoted(word.substr(0, word.find('/'))) + " of a " + kind,
+               "an index from 1 or from -1 to -" + std::to_string(count));
+    word.remove_prefix(std::size_t(end.ptr - word.data()));
+    index = index > 0 ? index - 1 : count + index;
+    // Faces may stand before their vertices, so the upper bound is checked at the end of the file.
+    if (index > largest) {
+        largest = index;
+        largest_line = line_;
+    }
+    return index;
+}
+
+Corner ObjReader::read_corner(std::string_view word)
+{
+    const std::string_view whole = word;
+    Corner corner;
+    corner.vertex = read_index(word, int(mesh.vertices.size()), "vertex", largest_vertex_, largest_vertex_line_);
+    if (!word.empty() && word.front() == '/') {
+        word.remove_prefix(1);
+        if (!word.empty() && word.front() != '/')
+            corner.texture = read_index(word, int(texture_.size()), "texture coordinate", largest_texture_,
+                                        largest_texture_line_);
+        // What follows is a normal's index, which is of no use here.
+        if (!word.empty() && word.front() == '/')
+            word.remove_prefix(std::min(word.find_first_not_of("-0123456789", 1), word.size()));
+    }
+    if (!word.empty()) refuse(line_, quoted(whole), "a corner as i, i/t, i//n or i/t/n");
+    return corner;
+}
+
+void ObjReader::read_face(std::string_view line)
+{
+    corners_.clear();
+    for (std::string_view word = take_word(line); !word.empty() && word.front() != '#'; word = take_word(line))
+        corners_.push_back(read_corner(word));
+    if (corners_.size() < 3)
+        refuse(line_, "a face with " + std::to_string(corners_.size()) + " vertices", "at least 3 vertices");
+    for (std::size_t corner = 2; corner < corners_.size(); ++corner) {
+        const Corner &a = corners_[0], &b = corners_[corner - 1], &c = corners_[corner];
+        mesh.faces.push_back({a.vertex, b.vertex, c.vertex});
+        face_textures_.push_back({a.texture, b.texture, c.texture});
+        face_lines.push_back(line_);
+    }
+}
+
+void ObjReader::start_part(std::string_view name)
+{
+    const int face = int(mesh.faces.size());
+    if (mesh.parts.empty() && face > 0) mesh.parts.push_back({"", 0, 0});
+    if (!mesh.parts.empty() && mesh.parts.back().first_face == face) mesh.parts.pop_back();
+    mesh.parts.push_back({std::string(name), face, 0});
+}
+
+void ObjReader::finish_parts()
+{
+    const int face_count = int(mesh.faces.size());
+    if (!mesh.parts.empty() && mesh.parts.back().first_face == face_count) mesh.parts.pop_back();
+    for (std::size_t part = 0; part < mesh.parts.size(); ++part) {
+        const int end = part + 1 < mesh.parts.size() ? mesh.parts[part + 1].first_face : face_count;
+        mesh.parts[part].face_count = end - mesh.parts[part].first_face;
+    }
+}
+
+void ObjReader::fill_texture(std::vector<Vec2>& texture) const
+{
+    texture.clear();
+    if (texture_.empty()) return;
+    std::vector<char> known(mesh.vertices.size(), 0);
+    texture.assign(mesh.vertices.size(), Vec2::Zero());
+    for (std::size_t face = 0; face < mesh.faces.size(); ++face)
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const std::size_t vertex = std::size_t(mesh.faces[face][corner]);
+            const int index = face_textures_[face][corner];
+            if (index < 0)
+                refuse(face_lines[face], "vertex " + std::to_string(vertex + 1) + " without texture coordinates",
+                       "texture coordinates at every corner, as other corners have them");
+            const Vec2& value = texture_[std::size_t(index)];
+            if (known[vertex] && texture[vertex] != value)
+                refuse(face_lines[face], "a second texture coordinate of vertex " + std::to_string(vertex + 1),
+                       "one per vertex: cut the mesh where its rest shape is cut");
+            texture[vertex] = value;
+            known[vertex] = 1;
+        }
+}
+
+double metres_per(const std::string& unit, const std::string& path)
+{
+    if (unit == "m") return 1;
+    if (unit == "cm") return 0.01;
+    if (unit == "mm") return 0.001;
+    if (unit == "inch") return 0.0254;
+    throw InputError({path, 0, 0, "unit"}, "`" + unit + "`", "m, cm, mm or inch");
+}
+
+void append_numbers(std::string& text, const char* keyword, const double* values, int count)
+{
+    text += keyword;
+    char digits[32];
+    for (int k = 0; k < count; ++k) {
+        const std::to_chars_result end =
+            std::to_chars(digits, digits + sizeof digits, values[k], std::chars_format::general, 9);
+        text += ' ';
+        text.append(digits, end.ptr);
+    }
+    text += '\n';
+}
+
+}  // namespace
+
+std::vector<std::string> sequence_files(const std::string& pattern, const InputPlace& place)
+{
+    namespace fs = std::filesystem;
+    const fs::path whole(pattern);
+    const std::string name = whole.filename().string();
+    const std::size_t star = name.find('*');
+    if (star == std::string::npos || name.find('*', star + 1) != std::string::npos)
+        throw InputError(place, "`" + pattern + "`", "a file name with one *, such as pose_*.obj");
+    const std::string head = name.substr(0, star), tail = name.substr(star + 1);
+    std::vector<std::string> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(whole.has_parent_path() ? whole.parent_path() : fs::path("."), error)) {
+        const std::string found = entry.path().filename().string();
+        if (found.size() + 1 >= name.size() && found.starts_with(head) && found.ends_with(tail))
+            files.push_back(entry.path().string());
+    }
+    if (files.empty()) throw InputError(place, "`" + pattern + "`, no such files", "OBJ files of a body's poses");
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+TriangleMesh read_obj(const std::string& path, const std::string& unit, const std::string& up_axis,
+                      std::vector<Vec2>* texture)
+{
+    const double scale = metres_per(unit, path);
+    const Mat3 turn = scale * z_up_from(up_axis);
+    ObjReader reader(path);
+    reader.read(read_file_text(path, "an OBJ file"));
+    if (texture) reader.fill_texture(*texture);
+    for (Vec3& vertex : reader.mesh.vertices) vertex = turn * vertex;
+    return std::move(reader.mesh);
+}
+
+int obj_face_line(const std::string& path, int face)
+{
+    try {
+        ObjReader reader(path);
+        reader.read(read_file_text(path, "an OBJ file"));
+        return face < int(reader.face_lines.size()) ? reader.face_lines[std::size_t(face)] : 0;
+    } catch (const InputError&) {
+        return 0;
+    }
+}
+
+void write_obj(const std::string& path, std::span<const ObjObject> objects)
+{
+    std::string text;
+    int offset = 1;
+    for (const ObjObject& object : objects) {
+        text += "o " + object.name + "\n";
+        for (const Vec3& position : object.positions) append_numbers(text, "v", position.data(), 3);
+        for (const Vec2& point : object.texture) append_numbers(text, "vt", point.data(), 2);
+        for (const Face& face : object.faces) {
+            text += 'f';
+            for (const int corner : face) {
+                const std::string index = std::to_string(corner + offset);
+                text += ' ' + index;
+                if (!object.texture.empty()) text += '/' + index;
+            }
+            text += '\n';
+        }
+        offset += int(object.positions.size());
+    }
+    write_file_atomically(path, text);
+}
+
+}  // namespace selvage

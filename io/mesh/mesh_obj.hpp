@@ -1,0 +1,43 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/mesh/body_mesh.hpp"
+#include "io/errors.hpp"
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+/// Reads a Wavefront OBJ file. Polygons become fans of triangles, `o` and `g` become parts; materials and normals are
+/// ignored.
+/// @param unit     length unit of the file: m, cm, mm or inch
+/// @param up_axis  up direction of the file: x, y or z
+/// @param texture  if given: the texture coordinates per vertex as written, empty when the file has none
+/// @return the mesh in metres, z up
+/// @throws InputError with the line: bad numbers, indices out of range, faces below 3 vertices; a file without faces;
+///         with `texture`, a vertex without texture coordinates or with several.
+TriangleMesh read_obj(const std::string& path, const std::string& unit, const std::string& up_axis,
+                      std::vector<Vec2>* texture = nullptr);
+
+/// Returns the files that a name with one * in its last part stands for, sorted by name.
+/// @param place  for messages
+/// @throws InputError if there is no *, or no such file
+std::vector<std::string> sequence_files(const std::string& pattern, const InputPlace& place);
+
+/// Returns the line of an OBJ file that holds a face of the mesh read from it; 0 if it cannot be found.
+int obj_face_line(const std::string& path, int face);
+
+/// An object of an OBJ file; indices count within it.
+struct ObjObject {
+    std::string name;
+    std::span<const Vec3> positions;       ///< [m]
+    std::span<const Face> faces;
+    std::span<const Vec2> texture = {};    ///< Empty, or one per position.
+};
+
+/// Writes an OBJ file under a temporary name and renames it.
+/// @throws InputError if the folder cannot be written
+void write_obj(const std::string& path, std::span<const ObjObject> objects);
+
+}  // namespace selvage

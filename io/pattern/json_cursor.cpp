@@ -1,0 +1,141 @@
+#include "io/pattern/json_cursor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace selvage {
+namespace {
+
+std::string short_text(const OrderedJson& value)
+{
+    constexpr std::size_t limit = 60;
+    if (value.is_object()) return "an object";
+    std::string text = value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    if (text.size() > limit) text = text.substr(0, limit) + "...";
+    return text;
+}
+
+InputPlace place_of_byte(std::string_view text, std::size_t byte, const std::string& file)
+{
+    const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
+    const std::size_t newline = before.rfind('\n');
+    const std::size_t line_begin = newline == std::string_view::npos ? 0 : newline + 1;
+    return {file, 1 + int(std::count(before.begin(), before.end(), '\n')), 1 + int(before.size() - line_begin), {}};
+}
+
+// The library's messages begin with its own name, number and position, which the user's place already tells.
+std::string plain_message(const std::string& message)
+{
+    const std::size_t error = message.find("syntax error");
+    if (error != std::string::npos) return message.substr(error);
+    const std::size_t name = message.find("] ");
+    return name == std::string::npos ? message : message.substr(name + 2);
+}
+
+}  // namespace
+
+OrderedJson parse_json(std::string_view text, const std::string& file)
+{
+    std::vector<std::set<std::string>> keys;
+    const auto refuse_twice = [&](int, OrderedJson::parse_event_t event, OrderedJson& value) {
+        if (event == OrderedJson::parse_event_t::object_start) keys.emplace_back();
+        if (event == OrderedJson::parse_event_t::object_end) keys.pop_back();
+        if (event == OrderedJson::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+            throw InputError({file, 0, 0, value.get<std::string>()}, "the key twice in one object", "each key once");
+        return true;
+    };
+    try {
+        return OrderedJson::parse(text.begin(), text.end(), refuse_twice);
+    } catch (const OrderedJson::parse_error& error) {
+        throw InputError(place_of_byte(text, error.byte, file), plain_message(error.what()), "valid JSON");
+    } catch (const OrderedJson::exception& error) {
+        throw InputError({file, 0, 0, {}}, plain_message(error.what()), "valid JSON");
+    }
+}
+
+void JsonCursor::refuse(std::string_view expected, std::string_view nearest) const
+{
+    refuse_as(short_text(*value_), expected, nearest);
+}
+
+void JsonCursor::refuse_as(std::string_view found, std::string_view expected, std::string_view nearest) const
+{
+    throw InputError(place(), found, expected, nearest);
+}
+
+bool JsonCursor::has(const std::string& key) const
+{
+    return value_->is_object() && value_->contains(key);
+}
+
+JsonCursor JsonCursor::at(const std::string& key) const
+{
+    object();
+    const auto item = value_->find(key);
+    if (item == value_->end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, value] : value_->items()) names.push_back(name);
+        const std::string near = nearest_name(key, names);
+        const std::string found = near.empty() ? "no key `" + key + "`" : "`" + near + "` and no key `" + key + "`";
+        refuse_as(found, "the key `" + key + "`");
+    }
+    return {*item, *file_, path_.empty() ? key : path_ + "." + key};
+}
+
+JsonCursor JsonCursor::at(int index) const
+{
+    return {value_->at(std::size_t(index)), *file_, path_ + "[" + std::to_string(index) + "]"};
+}
+
+const JsonCursor& JsonCursor::object() const
+{
+    if (!value_->is_object()) refuse("an object {...}");
+    return *this;
+}
+
+const JsonCursor& JsonCursor::list(std::string_view expected) const
+{
+    if (!value_->is_array()) refuse(expected);
+    return *this;
+}
+
+double JsonCursor::number(std::string_view expected) const
+{
+    if (!value_->is_number() || !std::isfinite(value_->get<double>())) refuse(expected);
+    return value_->get<double>();
+}
+
+int JsonCursor::integer(std::string_view expected) const
+{
+    const double value = number(expected);
+    if (value != std::floor(value) || std::abs(value) > 1e9) refuse(expected);
+    return int(value);
+}
+
+std::string JsonCursor::text(std::string_view expected) const
+{
+    if (!value_->is_string()) refuse(expected);
+    return value_->get<std::string>();
+}
+
+bool JsonCursor::flag(std::string_view expected) const
+{
+    if (value_->is_boolean()) return value_->get<bool>();
+    if (!value_->is_number() || (value_->get<double>() != 0 && value_->get<double>() != 1)) refuse(expected);
+    return value_->get<double>() == 1;
+}
+
+Vec2 JsonCursor::vector2(std::string_view expected) const
+{
+    if (list(expected).size() != 2) refuse(expected);
+    return {at(0).number("a number"), at(1).number("a number")};
+}
+
+Vec3 JsonCursor::vector3(std::string_view expected) const
+{
+    if (list(expected).size() != 3) refuse(expected);
+    return {at(0).number("a number"), at(1).number("a number"), at(2).number("a number")};
+}
+
+}  // namespace selvage

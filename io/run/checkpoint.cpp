@@ -1,0 +1,81 @@
+#include "io/run/checkpoint.hpp"
+
+#include "io/atomic_file.hpp"
+#include "io/errors.hpp"
+#include "io/run/hdf5_file.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr const char* reals = "/reals";
+constexpr const char* integers = "/integers";
+constexpr const char* words = "/words";
+constexpr const char* schema = "selvage-checkpoint-1";
+
+std::string member(const char* group, const std::string& name) { return std::string(group) + "/" + name; }
+
+Checkpoint read_groups(const Hdf5File& file)
+{
+    Checkpoint checkpoint;
+    for (const std::string& name : file.members(reals))
+        checkpoint.reals[name] = file.read_reals(member(reals, name));
+    for (const std::string& name : file.members(integers)) {
+        const std::vector<std::int64_t> values = file.read_integers(member(integers, name));
+        checkpoint.integers[name].assign(values.begin(), values.end());
+    }
+    for (const std::string& name : file.members(words))
+        checkpoint.words[name] = file.text(member(words, name), "text");
+    return checkpoint;
+}
+
+void protect(Hdf5File& file, const std::string& name, hid_t type, std::size_t size, const void* values)
+{
+    if (size == 0) {
+        file.make_dataset(name, type, {0});
+        return;
+    }
+    const Hdf5Id dataset =
+        file.make_dataset(name, type, {size}, {.compressed = false, .growing = false, .chunk = {size}, .checked = true});
+    require_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
+{
+    const std::string temporary = temporary_name(path);
+    {
+        Hdf5File file(temporary, Hdf5Access::create);
+        for (const char* group : {reals, integers, words}) file.make_group(group);
+        for (const auto& [name, values] : checkpoint.reals)
+            protect(file, member(reals, name), H5T_NATIVE_DOUBLE, values.size(), values.data());
+        for (const auto& [name, values] : checkpoint.integers)
+            protect(file, member(integers, name), H5T_NATIVE_INT, values.size(), values.data());
+        for (const auto& [name, word] : checkpoint.words) {
+            file.make_group(member(words, name));
+            file.set_text(member(words, name), "text", word);
+        }
+        file.set_text("/", "schema", schema);
+        file.flush();
+    }
+    move_into_place(temporary, path);
+}
+
+Checkpoint read_checkpoint(const std::string& path)
+{
+    const auto refuse = [&](const std::string& found) -> InputError {
+        return {{path, 0, 0, {}}, found, "a checkpoint written by selvage"};
+    };
+    const Hdf5File file(path, Hdf5Access::read);
+    try {
+        const std::vector<std::string> found = file.texts("/", "schema");
+        if (found.size() != 1 || found.front() != schema) throw refuse("another kind of HDF5 file");
+        return read_groups(file);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::runtime_error& fault) {
+        throw refuse(fault.what());
+    }
+}
+
+}  // namespace selvage

@@ -1,0 +1,139 @@
+#include "io/run/progress.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "io/errors.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr double live_interval = 0.2, plain_interval = 2;   // [s]
+constexpr std::size_t trend_samples = 200, least_samples = 8;
+
+nlohmann::ordered_json number(double value)
+{
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string duration(double seconds)
+{
+    const auto whole = (long long)(std::ceil(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace
+
+void EtaEstimate::add(double wall, const ProgressState& state)
+{
+    samples_.push_back({wall, state.time, state.residual > 0 ? std::log(state.residual) : NAN});
+    if (samples_.size() > trend_samples) samples_.pop_front();
+}
+
+double EtaEstimate::seconds_left() const
+{
+    if (samples_.size() < 2) return NAN;
+    const Sample &first = samples_.front(), &last = samples_.back();
+    const double wall = last.wall - first.wall;
+    if (std::isfinite(end_time_)) {
+        const double advance = last.time - first.time;
+        return advance > 0 && wall > 0 ? std::max(0.0, end_time_ - last.time) * wall / advance : NAN;
+    }
+    // Least squares through (wall, log residual).
+    double count = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
+    for (const Sample& sample : samples_) {
+        if (!std::isfinite(sample.log_residual)) continue;
+        const double x = sample.wall - first.wall;
+        count += 1, sum_x += x, sum_y += sample.log_residual, sum_xx += x * x, sum_xy += x * sample.log_residual;
+    }
+    const double spread = count * sum_xx - sum_x * sum_x;
+    if (count < double(least_samples) || !(spread > 0) || !(tolerance_ > 0)) return NAN;
+    const double slope = (count * sum_xy - sum_x * sum_y) / spread;
+    const double fitted = sum_y / count + slope * (wall - sum_x / count);
+    return slope < 0 ? std::max(0.0, (std::log(tolerance_) - fitted) / slope) : NAN;
+}
+
+ProgressReport::ProgressReport(const ProgressOptions& options)
+    : options_(options), estimate_(options.end_time, options.tolerance), file_(nullptr, std::fclose),
+      start_(std::chrono::steady_clock::now()), shown_at_(-plain_interval), terminal_(isatty(STDERR_FILENO))
+{
+    if (options_.path.empty()) return;
+    file_.reset(std::fopen(options_.path.c_str(), options_.append ? "ae" : "we"));
+    if (!file_) throw InputError({options_.path, 0, 0, {}}, std::strerror(errno), "a place that can be written");
+}
+
+ProgressReport::~ProgressReport()
+{
+    if (live_line_) std::fputc('\n', stderr);
+}
+
+double ProgressReport::elapsed() const
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void ProgressReport::update(const ProgressState& state)
+{
+    const double wall = elapsed();
+    const bool phase_begins = state.phase != phase_;
+    if (phase_begins) estimate_.restart();
+    phase_ = state.phase;
+    estimate_.add(wall, state);
+    const double seconds_left = estimate_.seconds_left();
+    if (file_) write_line(state, wall, seconds_left);
+    const double interval = terminal_ ? live_interval : plain_interval;
+    if (options_.quiet || (!phase_begins && wall - shown_at_ < interval)) return;
+    shown_at_ = wall;
+    show(state, wall, seconds_left);
+}
+
+void ProgressReport::write_line(const ProgressState& state, double wall, double seconds_left)
+{
+    const nlohmann::ordered_json line = {{"phase", state.phase},
+                                         {"time", number(state.time)},
+                                         {"step", state.step},
+                                         {"residual", number(state.residual)},
+                                         {"eta_s", number(seconds_left)},
+                                         {"frames", state.frames},
+                                         {"wall_s", number(wall)}};
+    std::fputs((line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n").c_str(), file_.get());
+    std::fflush(file_.get());
+}
+
+void ProgressReport::show(const ProgressState& state, double wall, double seconds_left)
+{
+    std::string line = fmt::format("{}  t = {:.3f} s  step {}", state.phase, state.time, state.step);
+    if (std::isfinite(state.residual)) line += fmt::format("  residual {:.2e}", state.residual);
+    line += "  wall " + duration(wall);
+    line += "  ETA " + (std::isfinite(seconds_left) ? duration(seconds_left) : std::string("-"));
+    if (terminal_) {
+        std::fprintf(stderr, "\r\x1b[K%s", line.c_str());   // Erases the rest of the old line.
+        live_line_ = true;
+    } else {
+        std::fprintf(stderr, "%s\n", line.c_str());
+    }
+    std::fflush(stderr);
+}
+
+void ProgressReport::clear_live_line()
+{
+    if (live_line_) std::fputs("\r\x1b[K", stderr);
+    live_line_ = false;
+}
+
+void ProgressReport::message(const std::string& text)
+{
+    if (options_.quiet) return;
+    clear_live_line();
+    std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+}  // namespace selvage

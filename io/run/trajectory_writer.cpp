@@ -1,0 +1,165 @@
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "io/atomic_file.hpp"
+#include "io/errors.hpp"
+#include "io/run/trajectory.hpp"
+#include "io/run/trajectory_format.hpp"
+#include "io/run/xdmf.hpp"
+
+namespace selvage {
+
+using namespace trajectory_format;
+
+namespace {
+
+constexpr std::chrono::seconds index_interval{2};
+
+std::string index_path(const std::string& path)
+{
+    return std::filesystem::path(path).replace_extension(".xdmf").string();
+}
+
+// Readers never see a file without its header.
+void put_header(const std::string& path, const TrajectoryLayout& layout)
+{
+    write_header(temporary_name(path), layout);
+    move_into_place(temporary_name(path), path);
+}
+
+void lengthen_points(hid_t points_dataset, int frame_count, int point_count)
+{
+    const std::array<hsize_t, 2> shape{hsize_t(frame_count) * hsize_t(point_count), 3};
+    require_hdf5(H5Dset_extent(points_dataset, shape.data()), points);
+}
+
+// Fills a new file with the first frames of an old one, without unpacking them.
+void copy_frames(const TrajectoryReader& old, const std::string& path, int frame_count)
+{
+    Hdf5File file(path, Hdf5Access::append);
+    const int point_count = old.layout().point_count;
+    const Hdf5Id target = open_points(file);
+    lengthen_points(target, frame_count, point_count);
+    for (int frame = 0; frame < frame_count; ++frame) {
+        std::uint32_t mask = 0;
+        const std::vector<unsigned char> raw = old.read_raw_frame(frame, mask);
+        const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(point_count), 0};
+        require_hdf5(H5Dwrite_chunk(target, H5P_DEFAULT, mask, start.data(), raw.size(), raw.data()), points);
+    }
+    for (std::size_t column = 0; column < frame_columns.size(); ++column) {
+        const Hdf5Id dataset = file.open_dataset(frame_columns[column].name);
+        for (int frame = 0; frame < frame_count; ++frame)
+            write_row(dataset, frame_columns[column], frame, frame_rows(frame, point_count, old.scalars(frame))[column]);
+    }
+    file.set_integer(steps, "NSteps", frame_count);
+    file.flush();
+}
+
+}  // namespace
+
+PositionGrid position_grid(const std::string& word)
+{
+    if (word == "lossless") return PositionGrid::lossless;
+    if (word == "8um") return PositionGrid::fine_8um;
+    if (word == "60um") return PositionGrid::coarse_60um;
+    throw InputError({{}, 0, 0, "output.precision"}, '"' + word + '"', "lossless, 8um or 60um");
+}
+
+double grid_spacing(PositionGrid grid)
+{
+    if (grid == PositionGrid::lossless) return 0;
+    return std::ldexp(1.0, grid == PositionGrid::fine_8um ? -17 : -14);
+}
+
+Eigen::Vector3f written_position(const Vec3& position, double spacing)
+{
+    if (spacing == 0) return position.cast<float>();
+    const Vec3 rounded = (position / spacing).array().round() * spacing;
+    return rounded.cast<float>();
+}
+
+TrajectoryWriter::TrajectoryWriter(const std::string& path, const TrajectoryLayout& layout, std::vector<double> times)
+    : path_(path), point_count_(layout.point_count), triangle_count_(int(layout.triangles.size())),
+      spacing_(grid_spacing(layout.grid)), times_(std::move(times)), buffer_(3 * layout.panel.size()),
+      file_(std::make_unique<Hdf5File>(path, Hdf5Access::append)), points_(open_points(*file_))
+{
+    for (const FrameColumn& column : frame_columns) columns_.push_back(file_->open_dataset(column.name));
+    write_index_file();
+}
+
+TrajectoryWriter TrajectoryWriter::create(const std::string& path, const TrajectoryLayout& layout)
+{
+    put_header(path, layout);
+    return {path, layout, {}};
+}
+
+TrajectoryWriter TrajectoryWriter::resume(const std::string& path, int keep_frames)
+{
+    const std::string temporary = temporary_name(path);
+    const TrajectoryReader old(path);
+    if (keep_frames < 0 || keep_frames > old.frame_count())
+        throw InputError({path, 0, 0, {}}, std::to_string(old.frame_count()) + " frames",
+                         "at least the " + std::to_string(keep_frames) + " frames of the checkpoint");
+    write_header(temporary, old.layout());
+    copy_frames(old, temporary, keep_frames);
+    move_into_place(temporary, path);
+    std::vector<double> times;
+    for (int frame = 0; frame < keep_frames; ++frame) times.push_back(old.scalars(frame).time);
+    return {path, old.layout(), std::move(times)};
+}
+
+void TrajectoryWriter::write_frame(std::span<const Vec3> positions, const FrameScalars& scalars)
+{
+    if (!file_) throw std::logic_error("trajectory: a frame after the end");
+    if (int(positions.size()) != point_count_) throw std::invalid_argument("trajectory: positions differ in number");
+    if (!std::isfinite(scalars.time)) throw std::runtime_error("trajectory: the time of a frame is not finite");
+    for (std::size_t point = 0; point < positions.size(); ++point) {
+        if (!positions[point].allFinite())
+            throw std::runtime_error("trajectory: the position of vertex " + std::to_string(point) + " at t = " +
+                                     std::to_string(scalars.time) + " s is not finite");
+        const Eigen::Vector3f written = written_position(positions[point], spacing_);
+        for (int axis = 0; axis < 3; ++axis) buffer_[3 * point + std::size_t(axis)] = written[axis];
+    }
+    const int frame = frame_count();
+    const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(point_count_), 0}, count{hsize_t(point_count_), 3};
+    lengthen_points(points_, frame + 1, point_count_);
+    const Hdf5Id target(H5Dget_space(points_), H5Sclose, points);
+    require_hdf5(H5Sselect_hyperslab(target, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), points);
+    const Hdf5Id source(H5Screate_simple(2, count.data(), nullptr), H5Sclose, points);
+    require_hdf5(H5Dwrite(points_, H5T_NATIVE_FLOAT, source, target, H5P_DEFAULT, buffer_.data()), points);
+    append_row(scalars);
+    times_.push_back(scalars.time);
+    if (std::chrono::steady_clock::now() - index_written_ > index_interval) write_index_file();
+}
+
+void TrajectoryWriter::append_row(const FrameScalars& scalars)
+{
+    const int frame = frame_count();
+    const auto rows = frame_rows(frame, point_count_, scalars);
+    for (std::size_t column = 1; column < rows.size(); ++column)
+        write_row(columns_[column], frame_columns[column], frame, rows[column]);
+    file_->flush();
+    write_row(columns_[0], frame_columns[0], frame, rows[0]);
+    file_->set_integer(steps, "NSteps", frame + 1);
+    file_->flush();
+}
+
+void TrajectoryWriter::write_index_file()
+{
+    write_xdmf(index_path(path_), {file_name(path_), point_count_, triangle_count_, times_});
+    index_written_ = std::chrono::steady_clock::now();
+}
+
+void TrajectoryWriter::finish()
+{
+    if (!file_) return;
+    write_positions_view(*file_, frame_count(), point_count_);
+    file_->flush();
+    columns_.clear();
+    points_.reset();
+    file_.reset();
+    write_index_file();
+}
+
+}  // namespace selvage

@@ -1,0 +1,98 @@
+#pragma once
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/errors.hpp"
+#include "io/scene/fabric.hpp"
+#include "io/geometry.hpp"
+#include "io/scene/scene_keys.hpp"
+
+namespace selvage {
+
+/// Marks a number that the user did not give; test with std::isnan.
+inline constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
+
+// One struct per table of io/scene/scene_keys.hpp, with the defaults given there.
+#define SCENE_KEY(type, name, initial, unit, low, high, meaning) type name = initial;
+#define SCENE_WORD(name, initial, choices, meaning) std::string name = initial;
+#define SCENE_VEC3(name, x, y, z, unit, meaning) Vec3 name{x, y, z};
+#define SCENE_TABLE(name, type, keys, meaning) \
+    struct type {                              \
+        keys(SCENE_KEY, SCENE_WORD, SCENE_VEC3) \
+    };
+SCENE_TABLES(SCENE_TABLE)
+#undef SCENE_TABLE
+struct SheetScene {
+    SHEET_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
+};
+struct KeyframeScene {
+    KEYFRAME_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
+};
+struct BodyScene {
+    BODY_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
+    std::vector<KeyframeScene> keyframes;   ///< [[body.keyframe]]
+    bool moves() const { return !keyframes.empty() || !sequence.empty(); }
+};
+struct PinMotionScene {
+    PIN_MOTION_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
+};
+#undef SCENE_KEY
+#undef SCENE_WORD
+#undef SCENE_VEC3
+
+/// A whole scene: what is simulated, how, and what is written. All in SI units, z up.
+struct Scene {
+    std::string name;     ///< File stem or built-in name.
+    std::string file;     ///< Path as given, or `builtin:NAME`.
+    std::string folder;   ///< Folder against which file names in the scene are resolved.
+    std::string text;     ///< The TOML text as run, overrides applied.
+    std::string summary;  ///< One sentence from the top-level key `summary`.
+
+#define SCENE_TABLE(name, type, keys, meaning) type name;
+    SCENE_TABLES(SCENE_TABLE)
+#undef SCENE_TABLE
+    std::map<std::string, std::string> panel_fabrics;   ///< [garment.fabrics]: panel name to fabric name.
+    std::vector<SheetScene> sheets;                     ///< [[sheet]]
+    std::vector<BodyScene> bodies;                      ///< [[body]]
+    std::vector<PinMotionScene> pin_motions;            ///< [[pins.motion]]
+    std::map<std::string, Fabric> fabrics;              ///< Every fabric that the scene names, resolved and checked.
+    std::map<std::string, InputPlace> places;           ///< Key path to its place in the file, for later messages.
+
+    bool has_garment() const { return !garment.pattern.empty(); }
+    bool moves() const;   ///< A body or a pin has a motion of its own.
+    /// Returns the place of a key path such as `body[0].mesh`; only the file when the key was not given.
+    InputPlace place(const std::string& key) const;
+    /// Returns a file name from the scene, resolved against the scene's folder.
+    std::string resolve(const std::string& file_name) const;
+};
+
+/// Reads and checks a scene.
+/// @param source     path of a TOML file, or `builtin:NAME`
+/// @param overrides  `table.key=value` in TOML syntax; a bare word is taken as a string; `sheet.KEY` sets every sheet
+/// @throws InputError with file, line, column, key, value and expectation for the first fault.
+Scene read_scene(const std::string& source, std::span<const std::string> overrides);
+
+/// Reads and checks a scene whose text is at hand, such as that which a run keeps.
+/// @param source  where the text once stood: file names in it are resolved against its folder
+/// @throws InputError as read_scene
+Scene read_scene_text(const std::string& text, const std::string& source);
+
+struct SceneInfo {
+    std::string name;
+    std::string summary;
+    std::vector<std::string> parameters;   ///< Keys that are commonly overridden.
+};
+
+/// Returns the built-in scenes, sorted by name.
+std::vector<SceneInfo> builtin_scenes();
+
+/// Returns the documentation of every scene key as text, one line per key.
+std::string scene_schema_text();
+
+/// Returns the documentation of every scene key as JSON text.
+std::string scene_schema_json();
+
+}  // namespace selvage

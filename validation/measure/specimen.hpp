@@ -1,0 +1,68 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/solver/terms/cloth_state.hpp"
+#include "host/solver/stepping/newton.hpp"
+
+namespace selvage {
+
+/// The name under which a specimen's only fabric stands.
+inline constexpr const char* specimen_fabric = "test";
+
+/// A fabric that is an isotropic plate and an isotropic membrane.
+/// @param stiffness  Y = E h [N/m]
+/// @param rigidity   D [N m]
+/// @param poisson    of both
+Fabric isotropic_fabric(double stiffness, double rigidity, double poisson, double areal_density);
+
+enum class Solve { direct, direct_in_plane, iterative };
+
+/// A small cloth with its forces and Newton's method, as a run would have them.
+class Specimen {
+public:
+    /// @param cloth   its panel's fabric is specimen_fabric
+    /// @param params  terms that act
+    Specimen(const Cloth& cloth, const Fabric& fabric, const Params& params, Solve solve = Solve::direct);
+
+    State& state() { return state_; }
+    Params& params() { return params_; }
+    Newton& newton() { return *newton_; }
+
+    Vec3 position(int vertex) const;
+    void place(int vertex, const Vec3& position);
+    /// Gradient of the energy on a vertex: the force that holds it in balance [N]. Call after balance().
+    Vec3 holding_force(int vertex) const;
+
+    /// Finds the static equilibrium: implicit steps from rest, each longer than the one before, then Newton's method
+    /// on the energy.
+    /// @param tolerance  residual to reach, relative to the weight
+    /// @throws std::runtime_error if it is not reached
+    void balance(double tolerance);
+    /// The same with a membrane that starts soft and grows as stiff as it is: a stiff one takes long to find its way.
+    void balance_from_soft(double tolerance);
+
+private:
+    Params params_;
+    State state_;
+    std::unique_ptr<LinearSolver> linear_;
+    Profile profile_;
+    std::unique_ptr<Newton> newton_;
+};
+
+/// The panel of a cloth that is all of specimen_fabric.
+ClothPanel one_panel(const Cloth& cloth);
+
+/// A rectangle of one of rectangle_families(), lying in the plane z = 0 from (0, -height/2) to (width, height/2).
+Cloth flat_rectangle(const std::string& family, double width, double height, int columns);
+
+/// A strip from x = 0 to `length` that is clamped at x <= 0 by a rigid flap: two held columns of vertices.
+/// @param segments  along the length
+Cloth clamped_strip(const std::string& family, double length, double width, int segments);
+
+/// Parameters with gravity, the membrane and plate bending.
+Params heavy_plate(const Vec3& gravity);
+
+}  // namespace selvage

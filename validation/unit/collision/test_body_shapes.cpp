@@ -1,0 +1,44 @@
+#include <catch2/catch.hpp>
+
+#include <utility>
+
+#include "host/scene/body_shapes.hpp"
+#include "host/mesh/body_tessellation.hpp"
+
+using namespace selvage;
+
+TEST_CASE("bodies of a scene are placed as it says, and impossible ones are refused", "[body]")
+{
+    Scene scene;
+    BodyScene body_scene;
+    body_scene.rotation = Vec3(90, 0, 90);
+    body_scene.scale = 2;
+    body_scene.center = Vec3(0, 0, 1);
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}};
+    mesh.faces = {{0, 1, 2}};
+    const Body placed = make_body(body_scene, scene, 0, mesh);
+    CHECK((placed.mesh.vertices[0] - Vec3(0, 0, 3)).norm() < 1e-12);    // y to z by x; z is kept by z
+    CHECK((placed.mesh.vertices[1] - Vec3(0, 2, 1)).norm() < 1e-12);    // x is kept by x; x to y by z
+    CHECK((placed.mesh.vertices[2] - Vec3(2, 0, 1)).norm() < 1e-12);    // z to -y by x; -y to x by z
+
+    TriangleMesh inside_out = sphere_mesh(Vec3::Zero(), 1, 2);
+    const double volume = signed_volume(inside_out);
+    for (Face& f : inside_out.faces) std::swap(f[1], f[2]);
+    CHECK(signed_volume(make_body(body_scene, scene, 0, inside_out).mesh) == Approx(8 * volume));
+
+    mesh.faces = {{0, 1, 3}};
+    CHECK_THROWS_AS(make_body(body_scene, scene, 0, mesh), InputError);
+    body_scene.shape = "plane";
+    body_scene.normal = Vec3::Zero();
+    CHECK_THROWS_AS(make_body(body_scene, scene, 0), InputError);
+    body_scene.shape = "capsule";
+    body_scene.end = body_scene.center;
+    CHECK_THROWS_AS(make_body(body_scene, scene, 0), InputError);
+    for (const char* shape : {"sphere", "cylinder"}) {
+        body_scene.shape = shape;
+        CHECK(is_closed(make_body(body_scene, scene, 0).mesh));
+    }
+    CHECK(is_closed(capsule_mesh({0, 0, 1}, {1, 0, 0}, 0.2)));
+    CHECK(signed_volume(capsule_mesh({0, 0, 1}, {1, 0, 0}, 0.2)) > 0);
+}

@@ -1,0 +1,145 @@
+// Plain sheets of cloth: their meshes, pins and transfers between resolutions.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/garment/outline.hpp"
+#include "host/garment/sheet.hpp"
+#include "host/mesh/sheet_families.hpp"
+#include "host/model/transfer.hpp"
+#include "io/errors.hpp"
+
+using namespace selvage;
+
+namespace {
+
+double face_area(const Cloth& cloth, const Face& face)
+{
+    const std::vector<Vec2>& points = cloth.panel_coordinates;
+    return signed_area({points[face[0]], points[face[1]], points[face[2]]});
+}
+
+}  // namespace
+
+TEST_CASE("sheets have the vertices, size and place that their scene says")
+{
+    SheetScene sheet;
+    sheet.resolution = 9;
+    sheet.width = 0.8;
+    sheet.height = 0.4;
+    sheet.rotation = Vec3(90, 0, 0);
+    for (const char* family : {"alternating", "same_diagonal", "irregular"}) {
+        sheet.mesh_family = family;
+        const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+        CHECK(cloth.positions.size() == 45);
+        CHECK(cloth.faces.size() == 64);
+        CHECK(cloth.panels[0].rest_area == Approx(0.32));
+        CHECK(cloth.panels[0].rest_boundary == Approx(2.4));
+        for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
+        CHECK((cloth.positions[0] - Vec3(-0.4, 0, 0.8)).norm() < 1e-12);
+        CHECK((cloth.positions[44] - Vec3(0.4, 0, 1.2)).norm() < 1e-12);
+    }
+    sheet.shape = "disc";
+    sheet.radius = 0.15;
+    sheet.resolution = 31;
+    const Cloth disc = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+    CHECK(disc.panels[0].rest_area == Approx(std::numbers::pi * 0.15 * 0.15).epsilon(0.005));
+    for (const Face& face : disc.faces) CHECK(face_area(disc, face) > 0.1 * 0.01 * 0.01);
+    sheet.shape = "circle";
+    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), Catch::Contains("sheet[0].shape"));
+}
+
+TEST_CASE("every mesh family fills its rectangle or disc with faces that look up")
+{
+    SheetScene sheet;
+    sheet.resolution = 10;
+    sheet.width = 0.8;
+    sheet.height = 0.4;
+    for (const std::string& family : rectangle_families()) {
+        INFO(family);
+        sheet.mesh_family = family;
+        const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+        CHECK(cloth.panels[0].rest_area == Approx(0.32));
+        CHECK(cloth.panels[0].rest_boundary == Approx(2.4));
+        for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
+    }
+    sheet.shape = "disc";
+    sheet.radius = 0.15;
+    sheet.resolution = 21;
+    for (const std::string& family : disc_families()) {
+        INFO(family);
+        sheet.mesh_family = family;
+        const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+        CHECK(cloth.panels[0].rest_area == Approx(std::numbers::pi * 0.15 * 0.15).epsilon(0.01));
+        for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
+    }
+    sheet.mesh_family = "cross";
+    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), Catch::Contains("sheet[0].mesh_family"));
+}
+
+TEST_CASE("pins hold the vertices that their word names")
+{
+    SheetScene sheet;
+    sheet.resolution = 4;  // rows 0-3, 4-7, 8-11, 12-15 from the bottom
+    const auto pinned = [&](const std::string& word, const std::string& list = "") {
+        PinsScene pins;
+        pins.sheet = word;
+        pins.vertices = list;
+        return make_sheet(sheet, pins, "scene.toml", "sheet[0]").pinned;
+    };
+    CHECK(pinned("none").empty());
+    CHECK(pinned("corners") == std::vector<int>{0, 3, 12, 15});
+    CHECK(pinned("top_corners") == std::vector<int>{12, 15});
+    CHECK(pinned("top_edge") == std::vector<int>{12, 13, 14, 15});
+    CHECK(pinned("left_edge") == std::vector<int>{0, 4, 8, 12});
+    CHECK(pinned("two_rows") == std::vector<int>{0, 1, 4, 5, 8, 9, 12, 13});
+    CHECK(pinned("top_corners", "7, 2,15") == std::vector<int>{2, 7, 12, 15});
+    CHECK_THROWS_WITH(pinned("none", "16"), Catch::Contains("pins.vertices") && Catch::Contains("from 0 to 15"));
+    CHECK_THROWS_WITH(pinned("none", "1,x"), Catch::Contains("pins.vertices"));
+    sheet.mesh_family = "irregular";
+    CHECK(pinned("left_edge") == std::vector<int>{0, 4, 8, 12});
+}
+
+TEST_CASE("a sheet from a mesh takes its rest shape from texture coordinates, or its own plane if it is flat")
+{
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 2}, {0, 0, 2}};
+    mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+    SheetScene sheet;
+    sheet.center = Vec3(5, 5, 5);
+    const Cloth flat = sheet_from_mesh(mesh, {}, sheet, {}, "scene.toml", "sheet[1]");
+    CHECK(flat.panels[0].rest_area == Approx(2));
+    CHECK((flat.positions[0] - Vec3(4.5, 5, 4)).norm() < 1e-12);
+    for (const Face& face : flat.faces) CHECK(face_area(flat, face) == Approx(1));
+
+    mesh.vertices[2].y() = 0.3;
+    CHECK_THROWS_WITH(sheet_from_mesh(mesh, {}, sheet, {}, "scene.toml", "sheet[1]"), Catch::Contains("sheet[1].mesh"));
+    const std::vector<Vec2> rest{{0, 0}, {-1, 0}, {-1, 2}, {0, 2}};  // seen from behind
+    const Cloth textured = sheet_from_mesh(mesh, rest, sheet, {}, "scene.toml", "sheet[1]");
+    CHECK(textured.panels[0].rest_area == Approx(2));
+    CHECK(textured.panels[0].rest_boundary == Approx(6));
+    const std::vector<Vec2> folded{{0, 0}, {1, 0}, {1, 2}, {2, 0}};
+    CHECK_THROWS_WITH(sheet_from_mesh(mesh, folded, sheet, {}, "scene.toml", "sheet[1]"),
+                      Catch::Contains("turned over"));
+}
+
+TEST_CASE("a transfer between sheets of different resolution reproduces linear functions")
+{
+    SheetScene sheet;
+    sheet.resolution = 5;
+    sheet.mesh_family = "irregular";
+    const Cloth coarse = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+    sheet.resolution = 18;
+    const Cloth fine = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+    std::vector<double> values;
+    for (const Vec2& point : coarse.panel_coordinates) values.push_back(point.x() + 2 * point.y());
+    const Transfer transfer = make_transfer(coarse, fine);
+    for (std::size_t i = 0; i < fine.positions.size(); ++i) {
+        double sum = 0;
+        for (int k = transfer.offset[i]; k < transfer.offset[i + 1]; ++k)
+            sum += transfer.weight[k] * values[transfer.column[k]];
+        CHECK(sum == Approx(fine.panel_coordinates[i].x() + 2 * fine.panel_coordinates[i].y()).margin(1e-9));
+    }
+}

@@ -1,0 +1,101 @@
+#include <catch2/catch.hpp>
+
+#include "host/scene/scene_model.hpp"
+#include "host/scene/scene_phase.hpp"
+#include "host/solver/stepping/sleep.hpp"
+
+using namespace selvage;
+
+namespace {
+
+// A sheet that hangs by its top corners, in double so that two ways to the same step can be told apart.
+Scene hanging()
+{
+    const std::vector<std::string> changes{"sheet.resolution=17", "solver.precision=double"};
+    return read_scene("builtin:hanging", changes);
+}
+
+struct Cloths {
+    SceneModel model;
+    RunPlan plan;
+    Profile profile;
+    std::unique_ptr<Phase> phase;
+
+    explicit Cloths(const Scene& scene) : model(build_scene_model(scene)), plan(make_plan(scene, model))
+    {
+        const Cloth& cloth = model.model.cloth;
+        phase = std::make_unique<Phase>(model.model, phase_options(scene, model, plan.phases.back()), nullptr, profile,
+                                        cloth.positions, std::vector<Vec3>{});
+    }
+};
+
+NewtonOptions exact()
+{
+    NewtonOptions options;
+    options.max_iterations = 20;
+    options.tolerance = 1e-9;
+    options.linear_tolerance = 1e-8;
+    return options;
+}
+
+// Vertices of the sheet that are to sleep.
+std::vector<char> lower_half(const Cloth& cloth)
+{
+    std::vector<char> result;
+    for (const Vec2& u : cloth.panel_coordinates) result.push_back(u.y() < 0);
+    return result;
+}
+
+double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
+{
+    double most = 0;
+    for (std::size_t v = 0; v < a.size(); ++v) most = std::max(most, (a[v] - b[v]).norm());
+    return most;
+}
+
+}  // namespace
+
+TEST_CASE("cloth of which a part sleeps moves as if that part were pinned")
+{
+    const Scene scene = hanging();
+    Cloths sleeping(scene), pinned(scene);
+    const std::vector<Vec3> start = sleeping.model.model.cloth.positions;
+    const std::vector<char> asleep = lower_half(sleeping.model.model.cloth);
+    std::vector<char> awake;
+    for (char s : asleep) awake.push_back(!s);
+    // Held from the start the plate would be clamped there: its elements are those of the free sheet.
+    for (std::size_t v = 0; v < asleep.size(); ++v)
+        if (asleep[v]) pinned.phase->state().inv_mass[v] = 0;
+
+    sleeping.phase->newton().static_residual();
+    put_to_sleep(*sleeping.phase, awake, 0);
+    CHECK(sleeping.phase->state().awake.face.size() < sleeping.model.model.cloth.faces.size());
+    for (int step = 0; step < 3; ++step) {
+        REQUIRE(sleeping.phase->newton().step(0.02, exact()).converged);
+        REQUIRE(pinned.phase->newton().step(0.02, exact()).converged);
+    }
+    const std::vector<Vec3> a = sleeping.phase->positions(), b = pinned.phase->positions();
+    CHECK(largest_difference(a, b) < 1e-8);
+    CHECK(largest_difference(a, start) > 1e-4);
+    for (std::size_t v = 0; v < asleep.size(); ++v)
+        if (asleep[v]) CHECK(a[v] == start[v]);
+}
+
+TEST_CASE("what has slept is known exactly once all wake")
+{
+    const Scene scene = hanging();
+    Cloths slept(scene), other(scene);
+    std::vector<char> awake;
+    for (char s : lower_half(slept.model.model.cloth)) awake.push_back(!s);
+    slept.phase->newton().static_residual();
+    put_to_sleep(*slept.phase, awake, 0);
+    slept.phase->newton().step(0.02, exact());
+    wake(*slept.phase);
+    other.phase->state().pos = slept.phase->state().pos;
+    other.phase->state().vel = slept.phase->state().vel;
+    CHECK(slept.phase->newton().static_residual() == Approx(other.phase->newton().static_residual()).epsilon(1e-12));
+    CHECK(slept.phase->newton().potential_energy() == Approx(other.phase->newton().potential_energy()).epsilon(1e-12));
+    REQUIRE(slept.phase->newton().step(0.02, exact()).converged);
+    REQUIRE(other.phase->newton().step(0.02, exact()).converged);
+    CHECK(largest_difference(slept.phase->positions(), other.phase->positions()) < 1e-9);
+}
