@@ -20,12 +20,9 @@ struct Suite {
 
 const std::vector<Suite>& suites()
 {
-    static const std::vector<Suite> all = {{"kernels", bench_kernels},
-                                             {"broad-phase", bench_broad_phase},
-                                             {"skip", bench_skip},
-                                             {"scaling", bench_scaling},
-                                             {"work-precision", bench_work_precision},
-                                             {"stability", bench_stability}};
+    static const std::vector<Suite> all = {
+        {"kernels", bench_kernels}, {"broad-phase", bench_broad_phase},       {"skip", bench_skip},
+        {"scaling", bench_scaling}, {"work-precision", bench_work_precision}, {"stability", bench_stability}};
     return all;
 }
 

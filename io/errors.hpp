@@ -8,10 +8,10 @@ namespace selvage {
 
 /// Where in the user's input a fault lies; empty members are left out of the message.
 struct InputPlace {
-    std::string file;   ///< Path as the user gave it.
-    int line = 0;       ///< From 1; 0 if unknown.
-    int column = 0;     ///< From 1; 0 if unknown.
-    std::string key;    ///< Key path such as `solver.step` or `pattern.panels.front.edges[3]`.
+    std::string file;  ///< Path as the user gave it.
+    int line = 0;      ///< From 1; 0 if unknown.
+    int column = 0;    ///< From 1; 0 if unknown.
+    std::string key;   ///< Key path such as `solver.step` or `pattern.panels.front.edges[3]`.
 };
 
 /// Bad usage or input: the program ends with exit code 2 and this message.

@@ -22,9 +22,9 @@ struct MeshPart {
 
 /// A triangle mesh in metres, z up unless its reader was told otherwise.
 struct TriangleMesh {
-    std::vector<Vec3> vertices;    ///< Positions [m].
+    std::vector<Vec3> vertices;  ///< Positions [m].
     std::vector<Face> faces;
-    std::vector<MeshPart> parts;   ///< Covers all faces in order, or is empty.
+    std::vector<MeshPart> parts;  ///< Covers all faces in order, or is empty.
 };
 
 }  // namespace selvage

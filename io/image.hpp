@@ -11,7 +11,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 /// An 8-bit sRGB picture, row by row from the top left.
 struct Image {
     int width = 0, height = 0;
-    std::vector<Rgb> pixels;    ///< width * height.
+    std::vector<Rgb> pixels;  ///< width * height.
 
     Rgb& at(int column, int row) { return pixels[std::size_t(row) * std::size_t(width) + std::size_t(column)]; }
     const Rgb& at(int column, int row) const

@@ -9,13 +9,13 @@ namespace {
 
 struct UnitSlip {
     std::string_view unit, meant;
-    double factor;   ///< Value in `unit` = value in `meant` / factor.
+    double factor;  ///< Value in `unit` = value in `meant` / factor.
 };
 
 // What users write instead of the SI unit, the likeliest first.
 constexpr UnitSlip slips[] = {
-    {"m", "mm", 1e3},          {"m", "cm", 1e2},    {"kg/m^2", "g/m^2", 1e3}, {"s", "ms", 1e3},
-    {"N m", "uN m", 1e6},      {"N", "mN", 1e3},    {"N/m", "mN/m", 1e3},     {"Pa", "mPa", 1e3},
+    {"m", "mm", 1e3},     {"m", "cm", 1e2}, {"kg/m^2", "g/m^2", 1e3}, {"s", "ms", 1e3},
+    {"N m", "uN m", 1e6}, {"N", "mN", 1e3}, {"N/m", "mN/m", 1e3},     {"Pa", "mPa", 1e3},
 };
 
 }  // namespace

@@ -7,7 +7,9 @@
 #pragma once
 #include "portable.h"
 
-typedef struct { real value, slope, curvature; } barrier_jet;
+typedef struct {
+    real value, slope, curvature;
+} barrier_jet;
 
 KERNEL_FN barrier_jet log_barrier(real s)
 {

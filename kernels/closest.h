@@ -3,7 +3,9 @@
 #pragma once
 #include "portable.h"
 
-typedef struct { real w[4]; } pair_weights;
+typedef struct {
+    real w[4];
+} pair_weights;
 
 KERNEL_FN real unit_interval(real t) { return smaller(REAL(1), larger(REAL(0), t)); }
 

@@ -1,4 +1,5 @@
-// Dihedral angle of a hinge and its derivatives: the edge x0 x1 with faces (0, 1, 2) and (1, 0, 3), theta = 0 when flat.
+// Dihedral angle of a hinge and its derivatives: the edge x0 x1 with faces (0, 1, 2) and (1, 0, 3), theta = 0 when
+// flat.
 //     dtheta/dx2 = -|e| n1 / |n1|^2,   n1 = e x (x2 - x0);   likewise for x3 with n2 = (x3 - x0) x e
 // Only sin(theta/2) and cos(theta/2) are formed: no inverse function, and no jump where a fold passes 180 degrees.
 // Source: Bridson, Marino and Fedkiw 2003, section 4, as restated in D7; second derivatives of theta by
@@ -7,13 +8,13 @@
 #include "term_args.h"
 
 typedef struct {
-    vec3 e, p, q;               // x1 - x0, x2 - x0, x3 - x0
-    vec3 n1, n2;                // face normals, twice the area long
-    real inv_n1, inv_n2;        // 1/|n1|^2, 1/|n2|^2
-    real length;                // |e|
-    real b2, b3;                // where x2 and x3 stand along the edge, 0 at x0, 1 at x1
-    real sine, cosine;          // of theta/2
-    vec3 g[4];                  // dtheta/dx_i
+    vec3 e, p, q;         // x1 - x0, x2 - x0, x3 - x0
+    vec3 n1, n2;          // face normals, twice the area long
+    real inv_n1, inv_n2;  // 1/|n1|^2, 1/|n2|^2
+    real length;          // |e|
+    real b2, b3;          // where x2 and x3 stand along the edge, 0 at x0, 1 at x1
+    real sine, cosine;    // of theta/2
+    vec3 g[4];            // dtheta/dx_i
 } hinge_state;
 
 KERNEL_FN hinge_state hinge_at(int hinge, mesh_sizes size, GLOBAL const real* pos, GLOBAL const int* hinge_vertex)
@@ -56,8 +57,7 @@ KERNEL_FN mat3 hinge_cross_matrix(vec3 v)
 // (I - 2 n n^T / |n|^2) [v]x / |n|^2 times s: how n/|n|^2 turns when n changes by v x dx.
 KERNEL_FN mat3 hinge_turn(real s, vec3 n, real inv_n, vec3 v)
 {
-    return mat3_add(mat3_scale(s * inv_n, hinge_cross_matrix(v)),
-                    outer3(REAL(-2) * s * inv_n * inv_n, n, cross(n, v)));
+    return mat3_add(mat3_scale(s * inv_n, hinge_cross_matrix(v)), outer3(REAL(-2) * s * inv_n * inv_n, n, cross(n, v)));
 }
 
 // Second derivatives of theta: blocks t[i][j] = d2theta/dx_i dx_j for i < j. Translation invariance gives x0's.

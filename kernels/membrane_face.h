@@ -10,11 +10,11 @@
 #include "term_args.h"
 
 typedef struct {
-    vec3 weft, warp;             // U and V
-    real wu1, wu2, wv1, wv2;     // weights of corners 1 and 2 [1/m]
-    real e_uu, e_vv, g;          // strain [1]
-    real s_uu, s_vv, s_uv;       // stress [N/m]
-    real ku, kv, kc, ks;         // its derivatives: along weft and warp, coupling, shear [N/m]
+    vec3 weft, warp;          // U and V
+    real wu1, wu2, wv1, wv2;  // weights of corners 1 and 2 [1/m]
+    real e_uu, e_vv, g;       // strain [1]
+    real s_uu, s_vv, s_uv;    // stress [N/m]
+    real ku, kv, kc, ks;      // its derivatives: along weft and warp, coupling, shear [N/m]
 } membrane_state;
 
 KERNEL_FN membrane_state membrane_strain(int face, const mesh_sizes* size, GLOBAL const real* pos,

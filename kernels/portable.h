@@ -1,10 +1,11 @@
 // Makes one kernel source valid as C++20 and as OpenCL C 1.2. No other kernel file tests the language.
 #pragma once
+// clang-format off: what stands within a branch is set in.
 #ifdef __OPENCL_C_VERSION__
     #define GLOBAL __global
     #define RESTRICT restrict
-    typedef float real;
-    typedef float3 vec3;                               // dot, cross and length are built in
+typedef float real;
+typedef float3 vec3;  // dot, cross and length are built in
     #define make_vec3(x, y, z) ((vec3)(x, y, z))
     #define larger fmax
     #define smaller fmin
@@ -12,29 +13,32 @@
     #include <cmath>
     #define GLOBAL
     #define RESTRICT __restrict__
-    typedef double real;                               // float positions alone leave force residuals above 5 %
-    struct vec3 { real x, y, z; };
-    using std::asin;
-    using std::exp;
-    using std::fabs;
-    using std::log;
-    using std::sqrt;
-    // In line: calls of the C library's fmax cost more than the kernels around them.
-    static inline real larger(real a, real b) { return a > b ? a : b; }
-    static inline real smaller(real a, real b) { return a < b ? a : b; }
-    static inline vec3 make_vec3(real x, real y, real z) { return {x, y, z}; }
-    static inline vec3 operator+(vec3 a, vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    static inline vec3 operator-(vec3 a, vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    static inline vec3 operator*(real s, vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
-    static inline real dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-    static inline vec3 cross(vec3 a, vec3 b)
-    {
-        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    }
-    static inline real length(vec3 a) { return sqrt(dot(a, a)); }
+typedef double real;  // float positions alone leave force residuals above 5 %
+struct vec3 {
+    real x, y, z;
+};
+using std::asin;
+using std::exp;
+using std::fabs;
+using std::log;
+using std::sqrt;
+// In line: calls of the C library's fmax cost more than the kernels around them.
+static inline real larger(real a, real b) { return a > b ? a : b; }
+static inline real smaller(real a, real b) { return a < b ? a : b; }
+static inline vec3 make_vec3(real x, real y, real z) { return {x, y, z}; }
+static inline vec3 operator+(vec3 a, vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+static inline vec3 operator-(vec3 a, vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+static inline vec3 operator*(real s, vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+static inline real dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline vec3 cross(vec3 a, vec3 b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static inline real length(vec3 a) { return sqrt(dot(a, a)); }
 #endif
+// clang-format on
 #define KERNEL_FN static inline
-typedef float block_real;                              // stiffness slots: a search direction needs no more digits
+typedef float block_real;  // stiffness slots: a search direction needs no more digits
 #define REAL(constant) ((real)(constant))
 
 // A field with several components stores one plane per component, `stride` items apart.
@@ -58,9 +62,13 @@ KERNEL_FN void add3(GLOBAL real* plane, int stride, int item, vec3 value)
 }
 
 // The symmetric 3x3 matrices of the kernels, by rows of the upper triangle.
-typedef struct { real xx, xy, xz, yy, yz, zz; } sym3;
+typedef struct {
+    real xx, xy, xz, yy, yz, zz;
+} sym3;
 // A general 3x3 matrix, by rows.
-typedef struct { vec3 row0, row1, row2; } mat3;
+typedef struct {
+    vec3 row0, row1, row2;
+} mat3;
 
 KERNEL_FN mat3 outer3(real s, vec3 a, vec3 b)
 {

@@ -2,16 +2,16 @@
 //     s >= 1:        q = 0
 //     s0 < s < 1:    q = exp(1/s) - e,    Q = integral of q from s to 1 = Ei(1/s) - Ei(1) - s exp(1/s) + e s
 //     s <= s0:       q = q(s0), with s0 = 0.1: a bounded force, also for a vertex inside a body
-// Source: Fan, Zhou, Wang and Yuen 1998 (A5), f_r = c_r exp(1/delta), corrected: the printed law jumps to c_r exp(1/d) where
-// contact sets in, overflows as delta goes to 0 and draws inwards below. Shifted it begins at zero, capped it ends at
-// exp(10) - e. 1/delta has a unit there; here the gap at which contact sets in is that of length.
+// Source: Fan, Zhou, Wang and Yuen 1998 (A5), f_r = c_r exp(1/delta), corrected: the printed law jumps to c_r exp(1/d)
+// where contact sets in, overflows as delta goes to 0 and draws inwards below. Shifted it begins at zero, capped it
+// ends at exp(10) - e. 1/delta has a unit there; here the gap at which contact sets in is that of length.
 #pragma once
 #include "barrier.h"
 
 // Ei(u) - Ei(1) for u in [1, 10] by the series ln u + sum of u^k / (k k!), whose terms are all positive.
 KERNEL_FN real exponential_integral_from_one(real u)
 {
-    real term = REAL(1), of_one = REAL(1), sum = log(u);   // u^k / k! and 1 / k!
+    real term = REAL(1), of_one = REAL(1), sum = log(u);  // u^k / k! and 1 / k!
     for (int k = 1; k <= 60; ++k) {
         term *= u / (real)k;
         of_one /= (real)k;

@@ -8,9 +8,11 @@
 #include "portable.h"
 
 #define CURVE_RANGES 10
-#define CURVE_NUMBERS 6   // of a range: start, W_p, s_p, a, b, c
+#define CURVE_NUMBERS 6  // of a range: start, W_p, s_p, a, b, c
 
-typedef struct { real energy, stress, tangent; } curve_value;
+typedef struct {
+    real energy, stress, tangent;
+} curve_value;
 
 // Number k of range p stands at curve[(CURVE_NUMBERS * p + k) * stride].
 KERNEL_FN curve_value curve_at(GLOBAL const real* curve, int stride, real strain)
@@ -21,8 +23,8 @@ KERNEL_FN curve_value curve_at(GLOBAL const real* curve, int stride, real strain
     real d = strain - k[0], up = larger(d, REAL(0));
     real a = k[3 * stride], b = k[4 * stride], c = k[5 * stride];
     curve_value value;
-    value.energy = k[stride] + d * (k[2 * stride] + REAL(0.5) * a * d) +
-                   up * up * up * (b / REAL(3) + REAL(0.25) * c * up);
+    value.energy =
+        k[stride] + d * (k[2 * stride] + REAL(0.5) * a * d) + up * up * up * (b / REAL(3) + REAL(0.25) * c * up);
     value.stress = k[2 * stride] + a * d + up * up * (b + c * up);
     value.tangent = a + up * (REAL(2) * b + REAL(3) * c * up);
     return value;

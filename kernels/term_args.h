@@ -3,22 +3,31 @@
 #include "portable.h"
 
 // Kinds of items: each has a count and a padded stride.
-#define ITEM_KINDS(KIND)                                                                        \
-    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(spring) KIND(pair) KIND(body_point) KIND(material) KIND(coupling) \
+// clang-format off
+#define ITEM_KINDS(KIND)                                                                      \
+    KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(spring) KIND(pair) KIND(body_point) \
+    KIND(material) KIND(coupling)                                                             \
     KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot) KIND(spring_slot) KIND(pair_slot)
+// clang-format on
 
 // Kinds whose items join several vertices, with the number of corners: their forces are gathered at vertices.
 // Elements belong to the cloth: their stiffness has a fixed place in the matrix. Pairs come and go with contact.
-#define ELEMENT_KINDS(KIND) KIND(face, 3) KIND(hinge, 4) KIND(stitch, 2) KIND(spring, 2)
+#define ELEMENT_KINDS(KIND) \
+    KIND(face, 3)           \
+    KIND(hinge, 4)          \
+    KIND(stitch, 2)         \
+    KIND(spring, 2)
 #define GATHERED_KINDS(KIND) ELEMENT_KINDS(KIND) KIND(pair, 4)
 
 #define SIZE_MEMBERS(kind) int kind##_count, kind##_stride;
-typedef struct { ITEM_KINDS(SIZE_MEMBERS) } mesh_sizes;
+typedef struct {
+    ITEM_KINDS(SIZE_MEMBERS)
+} mesh_sizes;
 #undef SIZE_MEMBERS
 
 // What a stiffness function is asked for.
 typedef struct {
-    int projected;   // 1: cut off what could make the element matrix indefinite
+    int projected;  // 1: cut off what could make the element matrix indefinite
 } stiffness_mode;
 
 #define FIELD(type, name, per, components, unit, meaning) typedef type name##_type;
@@ -27,19 +36,15 @@ typedef struct {
 #define ARG_READ(name) GLOBAL const name##_type* RESTRICT name;
 #define ARG_ADD(name) GLOBAL name##_type* RESTRICT name;
 #define ARG_PARAM(name, initial, unit, meaning) real name;
-#define TERM_ARGS(term)                                   \
-    typedef struct {                                      \
-        mesh_sizes size;                                  \
-        stiffness_mode mode;                              \
-        term##_FIELDS(ARG_READ, ARG_ADD)                  \
-        term##_PARAMS(ARG_PARAM, ARG_PARAM)               \
+#define TERM_ARGS(term)                                                      \
+    typedef struct {                                                         \
+        mesh_sizes size;                                                     \
+        stiffness_mode mode;                                                 \
+        term##_FIELDS(ARG_READ, ARG_ADD) term##_PARAMS(ARG_PARAM, ARG_PARAM) \
     } term##_args;
 
 // Position of block (a, b), a < b, in the stiffness slot of an element with `corners` vertices.
-KERNEL_FN int block_index(int corners, int a, int b)
-{
-    return a * (2 * corners - a - 1) / 2 + b - a - 1;
-}
+KERNEL_FN int block_index(int corners, int a, int b) { return a * (2 * corners - a - 1) / 2 + b - a - 1; }
 
 // The nine entries of a block stand together: the assembly of a matrix row reads whole blocks of scattered items
 // and one line of cache then serves a whole block.

@@ -20,19 +20,19 @@
 #include "terms/seam.h"
 #include "terms/spring.h"
 
-#define TERMS(TERM)                                         \
-    TERM(gravity, vertex, conservative, no_stage)           \
-    TERM(membrane, face, conservative, no_stage)            \
-    TERM(curved_membrane, face, conservative, no_stage)     \
-    TERM(spring, spring, conservative, no_stage)            \
-    TERM(bending, hinge, conservative, no_stage)            \
-    TERM(plate, hinge, conservative, plate_turns)           \
-    TERM(bending_hysteresis, hinge, conservative, no_stage) \
-    TERM(seam, stitch, conservative, no_stage)              \
-    TERM(damping, vertex, dissipative, no_stage)            \
-    TERM(body_contact, vertex, conservative, no_stage)      \
-    TERM(body_repulsion, vertex, conservative, no_stage)    \
-    TERM(friction, vertex, conservative, no_stage)          \
-    TERM(cloth_contact, pair, conservative, pair_frame)     \
+#define TERMS(TERM)                                            \
+    TERM(gravity, vertex, conservative, no_stage)              \
+    TERM(membrane, face, conservative, no_stage)               \
+    TERM(curved_membrane, face, conservative, no_stage)        \
+    TERM(spring, spring, conservative, no_stage)               \
+    TERM(bending, hinge, conservative, no_stage)               \
+    TERM(plate, hinge, conservative, plate_turns)              \
+    TERM(bending_hysteresis, hinge, conservative, no_stage)    \
+    TERM(seam, stitch, conservative, no_stage)                 \
+    TERM(damping, vertex, dissipative, no_stage)               \
+    TERM(body_contact, vertex, conservative, no_stage)         \
+    TERM(body_repulsion, vertex, conservative, no_stage)       \
+    TERM(friction, vertex, conservative, no_stage)             \
+    TERM(cloth_contact, pair, conservative, pair_frame)        \
     TERM(cloth_repulsion, pair, conservative, repulsion_frame) \
     TERM(cloth_friction, pair, conservative, no_stage)

@@ -37,9 +37,10 @@ void add_validate_command(CLI::App& program, Action& chosen)
     command->add_flag("--json", arguments->json, "print JSON");
     command->add_flag("--list", arguments->list, "print the groups and end");
     command->add_flag("--quick", arguments->quick, "leave out the cases that take long");
-    command->footer("The exit code is 0 if every case with a verdict passes, otherwise 1.\n"
-                    "Rows without a tolerance are information.\n"
-                    "Example:\n  selvage validate cantilever catenary --json");
+    command->footer(
+        "The exit code is 0 if every case with a verdict passes, otherwise 1.\n"
+        "Rows without a tolerance are information.\n"
+        "Example:\n  selvage validate cantilever catenary --json");
     command->callback([arguments, &chosen] { chosen = [arguments] { return validate(*arguments); }; });
 }
 

@@ -14,8 +14,8 @@ constexpr int margin_left = 84, margin_top = 44, margin_bottom = 62, legend_widt
 const cv::Scalar ink(40, 40, 40), faint(225, 225, 225), fainter(242, 242, 242), white(255, 255, 255);
 
 // Okabe and Ito 2008: told apart by colour-blind readers too.
-const std::array<cv::Scalar, 8> palette = {cv::Scalar(0, 114, 178),   cv::Scalar(213, 94, 0), cv::Scalar(0, 158, 115),
-                                           cv::Scalar(204, 121, 167), cv::Scalar(20, 20, 20), cv::Scalar(230, 159, 0),
+const std::array<cv::Scalar, 8> palette = {cv::Scalar(0, 114, 178),   cv::Scalar(213, 94, 0),  cv::Scalar(0, 158, 115),
+                                           cv::Scalar(204, 121, 167), cv::Scalar(20, 20, 20),  cv::Scalar(230, 159, 0),
                                            cv::Scalar(86, 180, 233),  cv::Scalar(150, 120, 60)};
 
 cv::Mat canvas(int width, int height) { return cv::Mat(height, width, CV_8UC3, white); }
@@ -60,13 +60,16 @@ void write_upright(cv::Mat& on, const std::string& text, cv::Point middle, doubl
     turned(cv::Rect(0, 0, place.width, place.height)).copyTo(on(place));
 }
 
-constexpr double two_labels = 0.72;   // [decades]: as much always holds two of 1, 2, 5 times a power of ten
+constexpr double two_labels = 0.72;  // [decades]: as much always holds two of 1, 2, 5 times a power of ten
 
 // One logarithmic axis: from whole decades to pixels.
 struct Axis {
-    double low = 0, high = 1;   // log10
-    int from = 0, to = 1;       // pixels
-    int at(double value) const { return int(std::lround(from + (std::log10(value) - low) / (high - low) * (to - from))); }
+    double low = 0, high = 1;  // log10
+    int from = 0, to = 1;      // pixels
+    int at(double value) const
+    {
+        return int(std::lround(from + (std::log10(value) - low) / (high - low) * (to - from)));
+    }
 };
 
 Axis fit_axis(const std::vector<double>& values, int from, int to)
@@ -88,10 +91,22 @@ void draw_marker(cv::Mat& on, cv::Point at, int kind, const cv::Scalar& colour)
 {
     constexpr int r = 5;
     switch (kind % 4) {
-    case 0: cv::circle(on, at, r, colour, cv::FILLED, cv::LINE_AA); break;
-    case 1: cv::rectangle(on, at - cv::Point(r - 1, r - 1), at + cv::Point(r - 1, r - 1), colour, cv::FILLED); break;
-    case 2: cv::fillConvexPoly(on, std::vector<cv::Point>{at + cv::Point(0, -r), at + cv::Point(r, r), at + cv::Point(-r, r)}, colour, cv::LINE_AA); break;
-    default: cv::fillConvexPoly(on, std::vector<cv::Point>{at + cv::Point(0, -r - 1), at + cv::Point(r + 1, 0), at + cv::Point(0, r + 1), at + cv::Point(-r - 1, 0)}, colour, cv::LINE_AA);
+        case 0:
+            cv::circle(on, at, r, colour, cv::FILLED, cv::LINE_AA);
+            break;
+        case 1:
+            cv::rectangle(on, at - cv::Point(r - 1, r - 1), at + cv::Point(r - 1, r - 1), colour, cv::FILLED);
+            break;
+        case 2:
+            cv::fillConvexPoly(
+                on, std::vector<cv::Point>{at + cv::Point(0, -r), at + cv::Point(r, r), at + cv::Point(-r, r)}, colour,
+                cv::LINE_AA);
+            break;
+        default:
+            cv::fillConvexPoly(on,
+                               std::vector<cv::Point>{at + cv::Point(0, -r - 1), at + cv::Point(r + 1, 0),
+                                                      at + cv::Point(0, r + 1), at + cv::Point(-r - 1, 0)},
+                               colour, cv::LINE_AA);
     }
 }
 
@@ -108,7 +123,8 @@ void draw_grid(cv::Mat& on, const Axis& x, const Axis& y)
                          upright ? cv::Point(p, y.to) : cv::Point(x.to, p), digit == 1 ? faint : fainter);
                 // Axes shorter than a decade and a half need more than the powers of ten.
                 if (digit != 1 && !(axis->high - axis->low < 1.5 && (digit == 2 || digit == 5))) continue;
-                const std::string label = value >= 0.01 && value < 1000 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value);
+                const std::string label =
+                    value >= 0.01 && value < 1000 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value);
                 if (upright)
                     write_centred(on, label, {p, y.from + 16}, 0.42);
                 else
@@ -164,7 +180,8 @@ Image draw_log_chart(const LogChart& chart, const std::vector<std::string>& name
     for (const ChartSeries& series : chart.series) {
         const int look = int(std::find(names.begin(), names.end(), series.name) - names.begin());
         draw_series(picture, series, look, x, y);
-        cv::line(picture, {right + 14, line}, {right + 40, line}, palette[std::size_t(look) % palette.size()], 2, cv::LINE_AA);
+        cv::line(picture, {right + 14, line}, {right + 40, line}, palette[std::size_t(look) % palette.size()], 2,
+                 cv::LINE_AA);
         draw_marker(picture, {right + 27, line}, look, palette[std::size_t(look) % palette.size()]);
         write_text(picture, series.name, {right + 48, line + 5}, 0.43);
         line += 22;
@@ -184,14 +201,18 @@ Image draw_cell_map(const CellMap& map, const std::vector<CellKind>& kinds, int 
         for (int column = 0; column < columns; ++column) {
             const Rgb& c = kinds[std::size_t(map.kind[std::size_t(row * columns + column)])].colour;
             const cv::Point from(left + (right - left) * column / columns, top + (bottom - top) * row / rows);
-            const cv::Point to(left + (right - left) * (column + 1) / columns - 2, top + (bottom - top) * (row + 1) / rows - 2);
+            const cv::Point to(left + (right - left) * (column + 1) / columns - 2,
+                               top + (bottom - top) * (row + 1) / rows - 2);
             cv::rectangle(picture, from, to, cv::Scalar(c[0], c[1], c[2]), cv::FILLED);
         }
     for (int column = 0; column < columns; ++column)
-        write_centred(picture, map.columns[std::size_t(column)], {left + (right - left) * (2 * column + 1) / (2 * columns), bottom + 12}, 0.38);
+        write_centred(picture, map.columns[std::size_t(column)],
+                      {left + (right - left) * (2 * column + 1) / (2 * columns), bottom + 12}, 0.38);
     for (int row = 0; row < rows; ++row) {
         const std::string& label = map.rows[std::size_t(row)];
-        write_text(picture, label, {left - text_size(label, 0.38).width - 6, top + (bottom - top) * (2 * row + 1) / (2 * rows) + 4}, 0.38);
+        write_text(picture, label,
+                   {left - text_size(label, 0.38).width - 6, top + (bottom - top) * (2 * row + 1) / (2 * rows) + 4},
+                   0.38);
     }
     write_text(picture, map.title, {left, 26}, 0.52);
     write_centred(picture, map.column_label, {(left + right) / 2, height - 20}, 0.44);
@@ -205,7 +226,8 @@ Image draw_cell_legend(const std::vector<CellKind>& kinds, int width)
     cv::Mat picture = canvas(width, 64);
     int at = 30;
     for (const CellKind& kind : kinds) {
-        cv::rectangle(picture, {at, 16}, {at + 30, 46}, cv::Scalar(kind.colour[0], kind.colour[1], kind.colour[2]), cv::FILLED);
+        cv::rectangle(picture, {at, 16}, {at + 30, 46}, cv::Scalar(kind.colour[0], kind.colour[1], kind.colour[2]),
+                      cv::FILLED);
         write_text(picture, kind.name, {at + 42, 40}, size);
         at += 42 + text_size(kind.name, size).width + 50;
     }
@@ -219,7 +241,8 @@ Image tile(const std::vector<Image>& pictures, int columns)
     const int rows = (int(pictures.size()) + columns - 1) / columns;
     cv::Mat all = canvas(width * columns, height * rows);
     for (int i = 0; i < int(pictures.size()); ++i)
-        mat_of(pictures[std::size_t(i)]).copyTo(all(cv::Rect(i % columns * width, i / columns * height, width, height)));
+        mat_of(pictures[std::size_t(i)])
+            .copyTo(all(cv::Rect(i % columns * width, i / columns * height, width, height)));
     return image_of(all);
 }
 

@@ -9,14 +9,14 @@ namespace selvage {
 /// One line of a chart.
 struct ChartSeries {
     std::string name;
-    std::vector<double> x, y;   ///< Positive and finite; same length; drawn in this order.
+    std::vector<double> x, y;  ///< Positive and finite; same length; drawn in this order.
 };
 
 /// A chart with two logarithmic axes and a legend at its right.
 struct LogChart {
     std::string title, x_label, y_label;
-    std::vector<ChartSeries> series;   ///< Those of one name share colour and marker in every chart.
-    double guide_y = 0;                ///< Value of a dashed horizontal line; 0: none.
+    std::vector<ChartSeries> series;  ///< Those of one name share colour and marker in every chart.
+    double guide_y = 0;               ///< Value of a dashed horizontal line; 0: none.
     std::string guide_label;
 };
 
@@ -28,7 +28,7 @@ Image draw_log_chart(const LogChart& chart, const std::vector<std::string>& name
 struct CellMap {
     std::string title, column_label, row_label;
     std::vector<std::string> columns, rows;
-    std::vector<int> kind;             ///< Per row and column: index into the kinds.
+    std::vector<int> kind;  ///< Per row and column: index into the kinds.
 };
 
 /// What a kind of cells means and its colour.

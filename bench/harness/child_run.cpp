@@ -65,7 +65,8 @@ double seconds(const timeval& time) { return double(time.tv_sec) + 1e-6 * double
 WorkFolder::WorkFolder()
 {
     std::string pattern = (fs::temp_directory_path() / "selvage_bench_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a folder in " + fs::temp_directory_path().string());
+    if (!mkdtemp(pattern.data()))
+        throw std::runtime_error("cannot make a folder in " + fs::temp_directory_path().string());
     path_ = pattern;
 }
 
@@ -82,7 +83,8 @@ ChildRun run_child(const std::string& program, const std::vector<std::string>& a
     const WorkFolder folder;
     std::vector<std::string> words = {program, "drape"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    for (const std::string& word : {std::string("--quiet"), std::string("-o"), folder.file("out")}) words.push_back(word);
+    for (const std::string& word : {std::string("--quiet"), std::string("-o"), folder.file("out")})
+        words.push_back(word);
 
     ChildRun run;
     const auto begin = std::chrono::steady_clock::now();
@@ -96,7 +98,8 @@ ChildRun run_child(const std::string& program, const std::vector<std::string>& a
     run.peak_memory_bytes = 1024 * double(usage.ru_maxrss);
     run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     run.errors = text_of(folder.file("log"));
-    if (fs::exists(folder.file("out/summary.json"))) run.summary = nlohmann::json::parse(text_of(folder.file("out/summary.json")));
+    if (fs::exists(folder.file("out/summary.json")))
+        run.summary = nlohmann::json::parse(text_of(folder.file("out/summary.json")));
     if (fs::exists(folder.file("out/run.h5"))) read_run(folder.file("out/run.h5"), run);
     return run;
 }

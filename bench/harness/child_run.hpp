@@ -23,14 +23,14 @@ private:
 /// One run of `selvage drape` as a process of its own, so that its memory and start-up cost are its own too.
 struct ChildRun {
     int exit_code = -1;
-    double wall_s = 0, cpu_s = 0;           ///< Of the whole process.
-    double peak_memory_bytes = 0;           ///< Largest resident size.
-    nlohmann::json summary;                 ///< summary.json; null if the run left none.
-    int contacts = 0;                       ///< At the end, of run.h5.
-    std::vector<std::string> phases;        ///< Of a profiled run: every phase by its path,
-    std::vector<double> self_s;             ///< the time of each without those within it,
-    std::int64_t launches = 0;              ///< and its launches.
-    std::string errors;                     ///< What it printed on stderr.
+    double wall_s = 0, cpu_s = 0;     ///< Of the whole process.
+    double peak_memory_bytes = 0;     ///< Largest resident size.
+    nlohmann::json summary;           ///< summary.json; null if the run left none.
+    int contacts = 0;                 ///< At the end, of run.h5.
+    std::vector<std::string> phases;  ///< Of a profiled run: every phase by its path,
+    std::vector<double> self_s;       ///< the time of each without those within it,
+    std::int64_t launches = 0;        ///< and its launches.
+    std::string errors;               ///< What it printed on stderr.
 
     bool finished() const { return exit_code == 0; }
 };

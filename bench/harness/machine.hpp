@@ -7,7 +7,8 @@ namespace selvage {
 /// `memory_bytes`.
 void describe_machine(nlohmann::ordered_json& context);
 
-/// The context of a suite that does not run on Google Benchmark's loop, in its schema: `date`, `num_cpus` and the above.
+/// The context of a suite that does not run on Google Benchmark's loop, in its schema: `date`, `num_cpus` and the
+/// above.
 nlohmann::ordered_json bench_context(int threads);
 
 }  // namespace selvage

@@ -18,7 +18,8 @@ std::map<std::string, std::string> read_options(const std::string& suite, const 
 /// Reads the value of an option.
 /// @throws InputError naming the option, the value and what was expected
 template <class Number>
-Number read_number(const std::string& name, const std::string& text, Number low, Number high, const std::string& expected)
+Number read_number(const std::string& name, const std::string& text, Number low, Number high,
+                   const std::string& expected)
 {
     Number value{};
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -58,8 +58,8 @@ std::string table(const Json& benchmarks)
 {
     std::size_t width = 6;
     for (const Json& run : benchmarks) width = std::max(width, run["name"].get<std::string>().size());
-    std::string text = fmt::format("{:<{}} {:>10} {:<8} {:>10} {:>12} {:>10} {:>9}\n", "kernel", width, "items", "", "ns/item",
-                                   "bytes/item", "GB/s", "of copy");
+    std::string text = fmt::format("{:<{}} {:>10} {:<8} {:>10} {:>12} {:>10} {:>9}\n", "kernel", width, "items", "",
+                                   "ns/item", "bytes/item", "GB/s", "of copy");
     for (const Json& run : benchmarks)
         text += fmt::format("{:<{}} {:>10.0f} {:<8} {:>10.3f} {:>12.1f} {:>10.2f} {:>8.1f}%\n",
                             run["name"].get<std::string>(), width, run["items"].get<double>(),

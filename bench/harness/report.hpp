@@ -9,8 +9,8 @@ namespace selvage {
 /// What the results of a run have in common, beside the machine and the build.
 struct BenchContext {
     int threads = 1;
-    double copy_bandwidth = 0;                        ///< Of this machine with these threads [bytes/s].
-    std::vector<std::pair<std::string, int>> sizes;   ///< Such as {"vertices", 100489}.
+    double copy_bandwidth = 0;                       ///< Of this machine with these threads [bytes/s].
+    std::vector<std::pair<std::string, int>> sizes;  ///< Such as {"vertices", 100489}.
 };
 
 /// Runs all registered benchmarks and prints them in the order of their registration.

@@ -28,7 +28,8 @@ Phase SceneRunner::make_phase(bool float_solves, const std::vector<Vec3>& veloci
 {
     PhaseOptions options = phase_options(scene_, model_, plan_);
     options.float_solves = float_solves;
-    return Phase(model_.model, options, query_ ? &*query_ : nullptr, profile_, model_.model.cloth.positions, velocities);
+    return Phase(model_.model, options, query_ ? &*query_ : nullptr, profile_, model_.model.cloth.positions,
+                 velocities);
 }
 
 void SceneRunner::move(Phase& phase, const RunSetting& setting, RunResult& result) const

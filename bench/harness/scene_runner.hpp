@@ -13,22 +13,22 @@ namespace selvage {
 /// How one run of a scene differs from another.
 struct RunSetting {
     std::string integrator = "implicit_euler";
-    double step = 0.02;            ///< [s]
-    double tolerance = 1e-2;       ///< Of the Newton iterations of a step, or of the equilibrium [1].
-    double still = 0;              ///< See NewtonOptions [m/s].
-    int iterations = 0;            ///< Newton iterations of a step, good or not; 0: until the tolerance is met.
+    double step = 0.02;       ///< [s]
+    double tolerance = 1e-2;  ///< Of the Newton iterations of a step, or of the equilibrium [1].
+    double still = 0;         ///< See NewtonOptions [m/s].
+    int iterations = 0;       ///< Newton iterations of a step, good or not; 0: until the tolerance is met.
     bool float_solves = false;
-    bool refuse_unstable = true;   ///< Explicit steps above the stability limit end the run.
+    bool refuse_unstable = true;  ///< Explicit steps above the stability limit end the run.
 };
 
 /// What came of it.
 struct RunResult {
-    std::vector<Vec3> positions;   ///< At the end, per cloth vertex [m].
-    double wall = 0;               ///< Of the steps alone, without meshing and allocation [s].
-    double cpu = 0;                ///< Of the same by thread_seconds() [s].
+    std::vector<Vec3> positions;  ///< At the end, per cloth vertex [m].
+    double wall = 0;              ///< Of the steps alone, without meshing and allocation [s].
+    double cpu = 0;               ///< Of the same by thread_seconds() [s].
     int steps = 0, newton_iterations = 0, linear_iterations = 0, retries = 0;
-    bool finished = false;         ///< Reached the end, or equilibrium.
-    std::string message;           ///< Why not.
+    bool finished = false;  ///< Reached the end, or equilibrium.
+    std::string message;    ///< Why not.
 };
 
 /// What the calling thread has computed so far [s]; unlike time on the wall it does not depend on who else computes.

@@ -13,14 +13,14 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
-#include "host/collision/ccd.hpp"
 #include "bench/suites/embree_pairs.hpp"
+#include "host/collision/ccd.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/solver/contact/cloth_contact.hpp"
 
@@ -28,10 +28,10 @@ namespace selvage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Positions = std::vector<double>;   // component planes
+using Positions = std::vector<double>;  // component planes
 
-constexpr double gap = 0.001;            // [m]
-constexpr double used_slack = 0.15;      // of an edge, as contact uses it
+constexpr double gap = 0.001;        // [m]
+constexpr double used_slack = 0.15;  // of an edge, as contact uses it
 
 struct BroadPhaseOptions {
     std::vector<int> sides{66, 129};
@@ -60,7 +60,7 @@ struct Spent {
 struct BroadPhaseResult {
     std::string shape, method;
     int side = 0;
-    Spent build, find, step;             // find: with the update of boxes before; step: several looks
+    Spent build, find, step;  // find: with the update of boxes before; step: several looks
     std::size_t candidates = 0, pairs = 0;
 };
 
@@ -74,7 +74,8 @@ std::vector<Shape> shapes()
 {
     constexpr double pi = std::numbers::pi, layer = 0.125, apart = 0.0006;
     return {
-        {"hanging", [](const Vec2& u) { return Vec3(u.x(), 0.01 * std::sin(pi * u.x()) * std::cos(2 * pi * u.y()), u.y()); }},
+        {"hanging",
+         [](const Vec2& u) { return Vec3(u.x(), 0.01 * std::sin(pi * u.x()) * std::cos(2 * pi * u.y()), u.y()); }},
         // Eight layers, one on the other.
         {"folded",
          [](const Vec2& u) {
@@ -85,7 +86,8 @@ std::vector<Shape> shapes()
          [](const Vec2& u) {
              Vec3 x(0.5 * u.x(), 0.5 * u.y(), 0);
              for (int wave = 1; wave <= 6; ++wave) {
-                 const double angle = 2.399963 * wave, phase = 3 * pi * wave * (u.x() * std::cos(angle) + u.y() * std::sin(angle));
+                 const double angle = 2.399963 * wave,
+                              phase = 3 * pi * wave * (u.x() * std::cos(angle) + u.y() * std::sin(angle));
                  x += 0.1 / wave * Vec3(std::sin(phase), std::cos(1.3 * phase), std::sin(0.7 * phase + wave));
              }
              return x;
@@ -98,7 +100,8 @@ std::vector<int> read_sides(const std::string& text)
     std::vector<int> sides;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t comma = std::min(text.find(',', begin), text.size());
-        sides.push_back(read_number("--sides", text.substr(begin, comma - begin), 3, 1025, "vertices a side from 3 to 1025, separated by commas"));
+        sides.push_back(read_number("--sides", text.substr(begin, comma - begin), 3, 1025,
+                                    "vertices a side from 3 to 1025, separated by commas"));
         begin = comma + 1;
     }
     return sides;
@@ -107,9 +110,8 @@ std::vector<int> read_sides(const std::string& text)
 BroadPhaseOptions read_broad_phase_options(const std::vector<std::string>& arguments)
 {
     BroadPhaseOptions options;
-    for (const auto& [name, value] :
-         read_options("bench broad-phase", arguments, {"--sides", "--repeats", "--looks"},
-                      "--sides N[,N...], --repeats N or --looks N")) {
+    for (const auto& [name, value] : read_options("bench broad-phase", arguments, {"--sides", "--repeats", "--looks"},
+                                                  "--sides N[,N...], --repeats N or --looks N")) {
         if (name == "--sides") options.sides = read_sides(value);
         if (name == "--looks") options.looks = read_number(name, value, 1, 1000, "a number from 1 to 1000");
         if (name == "--repeats") options.repeats = read_number(name, value, 1, 1000, "a number from 1 to 1000");
@@ -145,7 +147,8 @@ struct Sheet {
 };
 
 // The candidates that are within the gap, each named the same way whoever found it.
-std::vector<std::array<int, 5>> close_pairs(const std::vector<PairCandidate>& candidates, const Positions& pos, int stride)
+std::vector<std::array<int, 5>> close_pairs(const std::vector<PairCandidate>& candidates, const Positions& pos,
+                                            int stride)
 {
     std::vector<std::array<int, 5>> keys(candidates.size());
     tbb::parallel_for(std::size_t(0), candidates.size(), [&](std::size_t k) {
@@ -158,7 +161,8 @@ std::vector<std::array<int, 5>> close_pairs(const std::vector<PairCandidate>& ca
         if (c.edges) {
             std::sort(c.corner.begin(), c.corner.begin() + 2);
             std::sort(c.corner.begin() + 2, c.corner.end());
-            if (c.corner[2] < c.corner[0]) std::swap_ranges(c.corner.begin(), c.corner.begin() + 2, c.corner.begin() + 2);
+            if (c.corner[2] < c.corner[0])
+                std::swap_ranges(c.corner.begin(), c.corner.begin() + 2, c.corner.begin() + 2);
         } else {
             std::sort(c.corner.begin() + 1, c.corner.end());
         }
@@ -169,15 +173,17 @@ std::vector<std::array<int, 5>> close_pairs(const std::vector<PairCandidate>& ca
     return keys;
 }
 
-// Positions go to and fro between the two shapes, so that each look has something new to find. As contact does, the tree
-// searches anew in each step; within it candidates serve on where they are proved to be complete.
+// Positions go to and fro between the two shapes, so that each look has something new to find. As contact does, the
+// tree searches anew in each step; within it candidates serve on where they are proved to be complete.
 void measure_own(const Sheet& sheet, double slack, const BroadPhaseOptions& options, BroadPhaseResult& result,
                  std::vector<std::array<int, 5>>& pairs)
 {
     const double edge = typical_edge(sheet.cloth);
     const std::vector<Vec3> no_bodies;
     std::unique_ptr<ClothTree> tree;
-    const auto look = [&](const Positions& at) { tree->cover(at.data(), nullptr, sheet.stride, {no_bodies}, gap, gap); };
+    const auto look = [&](const Positions& at) {
+        tree->cover(at.data(), nullptr, sheet.stride, {no_bodies}, gap, gap);
+    };
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
         result.build.time([&] { tree = std::make_unique<ClothTree>(sheet.surface, slack * edge); });
         look(sheet.now);
@@ -231,8 +237,9 @@ std::vector<BroadPhaseResult> measure(const Shape& shape, int side, const BroadP
         std::cerr << fmt::format("{} {} {}: {:.3f} ms\n", shape.name, side, method, 1e3 * result.find.wall_s);
         if (results.size() == 1) first = pairs;
         if (pairs != first)
-            throw std::runtime_error(fmt::format("bench broad-phase: {} of {} finds {} pairs within the gap, {} finds {}, or others",
-                                                 results[0].method, shape.name, first.size(), method, pairs.size()));
+            throw std::runtime_error(
+                fmt::format("bench broad-phase: {} of {} finds {} pairs within the gap, {} finds {}, or others",
+                            results[0].method, shape.name, first.size(), method, pairs.size()));
     };
     using Update = EmbreePairs::Update;
     add("embree refit", [&](auto& r, auto& p) { measure_embree(sheet, Update::refit, options, r, p); });
@@ -251,20 +258,24 @@ const BroadPhaseResult& refit_of(const std::vector<BroadPhaseResult>& results, c
 
 std::string table(const std::vector<BroadPhaseResult>& results)
 {
-    std::string text = fmt::format("{:<9} {:>6} {:<14} {:>9} {:>9} {:>9} {:>10} {:>9} {:>10} {:>11} {:>8}\n", "shape", "a side",
-                                   "method", "build ms", "find ms", "cpu ms", "of Embree", "step ms", "of Embree", "candidates",
-                                   "in gap");
+    std::string text = fmt::format("{:<9} {:>6} {:<14} {:>9} {:>9} {:>9} {:>10} {:>9} {:>10} {:>11} {:>8}\n", "shape",
+                                   "a side", "method", "build ms", "find ms", "cpu ms", "of Embree", "step ms",
+                                   "of Embree", "candidates", "in gap");
     for (const BroadPhaseResult& r : results) {
         const BroadPhaseResult& rival = refit_of(results, r);
-        text += fmt::format("{:<9} {:>6} {:<14} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.1f}% {:>9.3f} {:>9.1f}% {:>11} {:>8}\n", r.shape, r.side,
-                            r.method, 1e3 * r.build.wall_s, 1e3 * r.find.wall_s, 1e3 * r.find.cpu_s,
-                            100 * r.find.cpu_s / rival.find.cpu_s, 1e3 * r.step.cpu_s, 100 * r.step.cpu_s / rival.step.cpu_s,
-                            r.candidates, r.pairs);
+        text += fmt::format("{:<9} {:>6} {:<14} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.1f}% {:>9.3f} {:>9.1f}% {:>11} {:>8}\n",
+                            r.shape, r.side, r.method, 1e3 * r.build.wall_s, 1e3 * r.find.wall_s, 1e3 * r.find.cpu_s,
+                            100 * r.find.cpu_s / rival.find.cpu_s, 1e3 * r.step.cpu_s,
+                            100 * r.step.cpu_s / rival.step.cpu_s, r.candidates, r.pairs);
     }
-    return text + "times: the least of all repeats; build: the first hierarchy, once a run; find: bring the boxes up to date and list "
-                  "the candidates, wall time and processor time of all threads; step: processor time of the looks of one time step, "
-                  "the first of which searches; of Embree: against Embree with its hierarchy refitted; no slack: boxes as tight as "
-                  "Embree's; own: as contact uses it; all methods find the same pairs within the gap\n";
+    return text +
+           "times: the least of all repeats; build: the first hierarchy, once a run; find: bring the boxes up to date "
+           "and list "
+           "the candidates, wall time and processor time of all threads; step: processor time of the looks of one time "
+           "step, "
+           "the first of which searches; of Embree: against Embree with its hierarchy refitted; no slack: boxes as "
+           "tight as "
+           "Embree's; own: as contact uses it; all methods find the same pairs within the gap\n";
 }
 
 Json json_report(const std::vector<BroadPhaseResult>& results)

@@ -26,8 +26,8 @@ struct CornerBox {
     }
     bool overlaps(const CornerBox& other) const
     {
-        return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
-               low[2] <= other.high[2] && other.low[2] <= high[2];
+        return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
+               other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
     }
 };
 
@@ -113,7 +113,8 @@ void collect(void* to, RTCCollision* collisions, unsigned count)
 
 }  // namespace
 
-EmbreePairs::EmbreePairs(const EmbreeDevice& device, TreeSurface surface, Update update) : impl_(std::make_unique<Impl>())
+EmbreePairs::EmbreePairs(const EmbreeDevice& device, TreeSurface surface, Update update)
+    : impl_(std::make_unique<Impl>())
 {
     Impl& i = *impl_;
     i.surface = std::move(surface);
@@ -122,7 +123,7 @@ EmbreePairs::EmbreePairs(const EmbreeDevice& device, TreeSurface surface, Update
     i.face_box.resize(i.surface.faces.size());
     i.device = static_cast<RTCDevice>(device.handle());
     i.scene = rtcNewScene(i.device);
-    rtcSetSceneFlags(i.scene, RTC_SCENE_FLAG_DYNAMIC);   // only such hierarchies are refitted
+    rtcSetSceneFlags(i.scene, RTC_SCENE_FLAG_DYNAMIC);  // only such hierarchies are refitted
     rtcSetSceneBuildQuality(i.scene, RTC_BUILD_QUALITY_LOW);
     i.geometry = rtcNewGeometry(i.device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryBuildQuality(i.geometry, update == Update::refit ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
@@ -140,7 +141,7 @@ void EmbreePairs::move(const double* pos, int stride, double reach)
     const float grown = float(0.5 * reach);
     tbb::parallel_for(std::size_t(0), i.corner_box.size(), [&](std::size_t v) {
         constexpr float far = std::numeric_limits<float>::infinity();
-        for (int c = 0; c < 3; ++c) {   // rounded outwards
+        for (int c = 0; c < 3; ++c) {  // rounded outwards
             const float x = float(pos[std::size_t(c) * std::size_t(stride) + v]);
             i.corner_box[v].low[c] = std::nextafter(x - grown, -far);
             i.corner_box[v].high[c] = std::nextafter(x + grown, far);
@@ -154,7 +155,8 @@ void EmbreePairs::move(const double* pos, int stride, double reach)
     });
     rtcCommitGeometry(i.geometry);
     rtcCommitScene(i.scene);
-    if (rtcGetDeviceError(i.device) != RTC_ERROR_NONE) throw std::runtime_error("Embree failed to build a hierarchy of cloth");
+    if (rtcGetDeviceError(i.device) != RTC_ERROR_NONE)
+        throw std::runtime_error("Embree failed to build a hierarchy of cloth");
 }
 
 std::vector<PairCandidate> EmbreePairs::candidates() const

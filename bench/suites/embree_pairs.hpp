@@ -10,7 +10,7 @@ namespace selvage {
 /// phase that ClothTree is measured against. It knows nothing of flat parts and keeps nothing from look to look.
 class EmbreePairs {
 public:
-    enum class Update { refit, rebuild };   ///< Boxes are fitted in the tree that is there, or a new one is built.
+    enum class Update { refit, rebuild };  ///< Boxes are fitted in the tree that is there, or a new one is built.
 
     /// @param surface  without bodies
     EmbreePairs(const EmbreeDevice& device, TreeSurface surface, Update update);
@@ -23,8 +23,8 @@ public:
     /// @param reach  distance of primitives that is of interest [m]
     void move(const double* pos, int stride, double reach);
 
-    /// Returns the pairs of primitives whose boxes, grown by half of the reach, overlap, in no particular order; those of
-    /// one group of particles are left out, as ClothTree does.
+    /// Returns the pairs of primitives whose boxes, grown by half of the reach, overlap, in no particular order; those
+    /// of one group of particles are left out, as ClothTree does.
     std::vector<PairCandidate> candidates() const;
 
 private:

@@ -6,19 +6,22 @@
 
 #include <benchmark/benchmark.h>
 
-#include "host/solver/terms/traffic.hpp"
 #include "host/solver/contact/anchors.hpp"
 #include "host/solver/stepping/newton.hpp"
+#include "host/solver/terms/traffic.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double step_length = 0.02;                          // as in a run [s]
-constexpr double inertia = 1 / (step_length * step_length);   // [1/s^2]
+constexpr double step_length = 0.02;                         // as in a run [s]
+constexpr double inertia = 1 / (step_length * step_length);  // [1/s^2]
 
 KernelCase vertex_case(const KernelCloth& cloth, std::string name, std::size_t bytes, std::function<void()> run)
 {
-    return {.name = std::move(name), .item = "vertex", .items = cloth.state.size.vertex_count, .bytes = bytes,
+    return {.name = std::move(name),
+            .item = "vertex",
+            .items = cloth.state.size.vertex_count,
+            .bytes = bytes,
             .run = std::move(run)};
 }
 
@@ -42,7 +45,8 @@ void add_terms(KernelCloth& cloth, TermPart part, std::vector<KernelCase>& cases
                          .items = term.item_count(cloth.state.size),
                          .bytes = term_bytes(term, cloth.state, part),
                          .run = [&cloth, &term, part] {
-                             if (part == TermPart::value) benchmark::DoNotOptimize(term.energy(cloth.state, cloth.params));
+                             if (part == TermPart::value)
+                                 benchmark::DoNotOptimize(term.energy(cloth.state, cloth.params));
                              if (part == TermPart::force) term.add_force(cloth.state, cloth.params);
                              if (part == TermPart::stiffness) term.add_stiffness(cloth.state, cloth.params, true);
                          }});
@@ -65,7 +69,7 @@ KernelCase operation_case(KernelCloth& cloth, std::string name, LinearSolver& so
                           std::size_t bytes)
 {
     KernelCase kernel = vertex_case(cloth, std::move(name), bytes, [&solver, operation] { solver.run(operation); });
-    kernel.prepare = [&cloth, &solver] {   // a short solve fills the solver's vectors
+    kernel.prepare = [&cloth, &solver] {  // a short solve fills the solver's vectors
         evaluate_forces(cloth);
         evaluate_stiffness(cloth);
         std::vector<real> solution(cloth.state.force.size());
@@ -125,14 +129,13 @@ std::size_t newton_bytes(const KernelCloth& cloth, const NewtonReport& report, c
     // Values and forces of conservative terms are recorded under one name.
     const std::size_t gradients = calls("gather_forces"), objectives = calls("gravity") - gradients;
     std::size_t total = calls("body_query") * body_query_bytes(state) + settle_friction_bytes(state) +
-                        settle_hysteresis_bytes(state) +
-                        gradients * (clear_forces_bytes(state) + gather_bytes(state)) +
+                        settle_hysteresis_bytes(state) + gradients * (clear_forces_bytes(state) + gather_bytes(state)) +
                         calls("assemble") * (clear_stiffness_bytes(state) + assemble_bytes(state, cloth.pattern));
     for (const Term& term : all_terms())
         total += objectives * term_bytes(term, state, TermPart::value) +
                  gradients * term_bytes(term, state, TermPart::force) +
                  calls("assemble") * term_bytes(term, state, TermPart::stiffness);
-    const std::size_t direction = update_bytes(cloth.pattern) / 2;   // p = z + turn p
+    const std::size_t direction = update_bytes(cloth.pattern) / 2;  // p = z + turn p
     return total + std::size_t(report.linear_iterations) *
                        (product_bytes(cloth.state, cloth.pattern) + multigrid_bytes(cloth.pattern, cloth.transfers) +
                         3 * dot_bytes(cloth.pattern) + update_bytes(cloth.pattern) + direction);
@@ -155,17 +158,20 @@ std::vector<KernelCase> kernel_cases(KernelCloth& cloth)
 {
     const State& state = cloth.state;
     std::vector<KernelCase> cases = {body_query_case(cloth)};
-    cases.push_back(vertex_case(cloth, "clear_forces", clear_forces_bytes(state), [&cloth] { clear_forces(cloth.state); }));
+    cases.push_back(
+        vertex_case(cloth, "clear_forces", clear_forces_bytes(state), [&cloth] { clear_forces(cloth.state); }));
     add_terms(cloth, TermPart::force, cases);
     cases.push_back(vertex_case(cloth, "gather_forces", gather_bytes(state), [&cloth] { gather_forces(cloth.state); }));
-    cases.push_back(
-        vertex_case(cloth, "clear_stiffness", clear_stiffness_bytes(state), [&cloth] { clear_stiffness(cloth.state); }));
+    cases.push_back(vertex_case(cloth, "clear_stiffness", clear_stiffness_bytes(state),
+                                [&cloth] { clear_stiffness(cloth.state); }));
     add_terms(cloth, TermPart::stiffness, cases);
     add_linear_solver(cloth, cases);
     add_terms(cloth, TermPart::value, cases);
     cases.push_back(vertex_case(cloth, "settle_friction", settle_friction_bytes(state),
                                 [&cloth] { settle_friction(cloth.state, cloth.params); }));
-    cases.push_back({.name = "settle_hysteresis", .item = "hinge", .items = state.size.hinge_count,
+    cases.push_back({.name = "settle_hysteresis",
+                     .item = "hinge",
+                     .items = state.size.hinge_count,
                      .bytes = settle_hysteresis_bytes(state),
                      .run = [&cloth] { settle_hysteresis(cloth.state, cloth.params); }});
     cases.push_back(newton_case(cloth));

@@ -5,19 +5,19 @@
 #include <numeric>
 
 #include "bench/harness/scatter.hpp"
-#include "host/mesh/body_tessellation.hpp"
 #include "host/garment/sheet.hpp"
+#include "host/mesh/body_tessellation.hpp"
 #include "host/model/transfer.hpp"
-#include "host/solver/terms/cloth_state.hpp"
 #include "host/solver/state/springs.hpp"
+#include "host/solver/terms/cloth_state.hpp"
 #include "host/solver/terms/terms.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double dome_radius = 1;          // [m]
-constexpr int dome_level = 6;              // 20 * 4^6 triangles
-constexpr double contact_margin = 0.03;    // as in a run [m]
+constexpr double dome_radius = 1;        // [m]
+constexpr int dome_level = 6;            // 20 * 4^6 triangles
+constexpr double contact_margin = 0.03;  // as in a run [m]
 constexpr int coarsest_vertices = 300;
 
 // A term that is added later has all its strengths at one.
@@ -26,7 +26,11 @@ Params all_strengths()
     Params params;
 #define STRENGTH(name, initial, unit, meaning) values.name = 1;
 #define PARAM(name, initial, unit, meaning)
-#define TERM(term, per, nature, stage) { auto& values = params.term; term##_PARAMS(STRENGTH, PARAM) }
+#define TERM(term, per, nature, stage) \
+    {                                  \
+        auto& values = params.term;    \
+        term##_PARAMS(STRENGTH, PARAM) \
+    }
     TERMS(TERM)
 #undef TERM
 #undef PARAM
@@ -144,7 +148,8 @@ void KernelCloth::load_friction()
     const int vs = state.size.vertex_stride;
     for (int v = 0; v < state.size.vertex_count; ++v)
         for (int c = 0; c < 3; ++c)
-            state.friction_anchor[c * vs + v] += 1.5 * params.friction.stick_distance * scatter(std::uint64_t(3 * v + c));
+            state.friction_anchor[c * vs + v] +=
+                1.5 * params.friction.stick_distance * scatter(std::uint64_t(3 * v + c));
 }
 
 // Pairs as a sheet that is folded in two has them, each within its contact distance: corners of faces and other faces.
@@ -166,7 +171,7 @@ void KernelCloth::put_pairs()
             state.pair_held_weight[i * ps + p] = i == 0 ? 1 : -1.0 / 3;
         }
         state.pair_area[p] = 1e-6;
-        state.pair_gap[p] = 4 * dome_radius;   // more than any distance on the dome
+        state.pair_gap[p] = 4 * dome_radius;  // more than any distance on the dome
         state.pair_held_normal[2 * ps + p] = 1;
         state.pair_limit[p] = 1e-3;
     }

@@ -5,9 +5,9 @@
 #include "host/collision/body_query.hpp"
 #include "host/solver/contact/fabric_contact.hpp"
 #include "host/solver/linear/linear_solver.hpp"
-#include "host/solver/terms/params.hpp"
 #include "host/solver/state/state.hpp"
 #include "host/solver/state/topology.hpp"
+#include "host/solver/terms/params.hpp"
 
 namespace selvage {
 
@@ -24,14 +24,14 @@ public:
     /// Puts positions, velocities and contacts back to the start.
     void reset();
 
-    Params params;                           ///< All strengths non-zero.
+    Params params;  ///< All strengths non-zero.
     State state;
     std::vector<Body> bodies;
     std::unique_ptr<BodyQuery> query;
     std::unique_ptr<FabricContact> contact;
     BlockPattern pattern;
-    ParticleTransfers transfers;             ///< Of the multigrid levels.
-    std::unique_ptr<LinearSolver> block_jacobi, multigrid;   ///< In double, as by default.
+    ParticleTransfers transfers;                            ///< Of the multigrid levels.
+    std::unique_ptr<LinearSolver> block_jacobi, multigrid;  ///< In double, as by default.
 
 private:
     void make_bodies();

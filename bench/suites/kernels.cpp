@@ -7,10 +7,10 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "host/parallel/copy_bandwidth.hpp"
-#include "bench/suites/kernel_cases.hpp"
 #include "bench/harness/options.hpp"
 #include "bench/harness/report.hpp"
+#include "bench/suites/kernel_cases.hpp"
+#include "host/parallel/copy_bandwidth.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -63,9 +63,11 @@ void register_cases(const std::vector<KernelCase>& cases, const KernelOptions& o
 {
     benchmark::ClearRegisteredBenchmarks();
     for (const KernelCase& kernel : cases)
-        benchmark::RegisterBenchmark(kernel.name.c_str(), [&kernel, copy_bandwidth](benchmark::State& timer) {
-            measure(timer, kernel, copy_bandwidth);
-        })->MinTime(options.min_time)->UseRealTime();
+        benchmark::RegisterBenchmark(
+            kernel.name.c_str(),
+            [&kernel, copy_bandwidth](benchmark::State& timer) { measure(timer, kernel, copy_bandwidth); })
+            ->MinTime(options.min_time)
+            ->UseRealTime();
 }
 
 void keep_matching(const std::string& filter, std::vector<KernelCase>& cases)
@@ -85,8 +87,8 @@ KernelOptions read_kernel_options(const std::vector<std::string>& options)
 {
     const std::vector<std::string> names = {"--vertices", "--threads", "--min-time", "--filter"};
     KernelOptions result;
-    for (const auto& [name, value] : read_options("bench kernels", options, names,
-                                                  "--vertices N, --threads N, --min-time S or --filter REGEX"))
+    for (const auto& [name, value] :
+         read_options("bench kernels", options, names, "--vertices N, --threads N, --min-time S or --filter REGEX"))
         set_option(result, name, value);
     read_filter(result.filter);
     return result;
@@ -105,8 +107,11 @@ void bench_kernels(bool json, const std::vector<std::string>& arguments, std::os
         const double copy_bandwidth = measure_copy_bandwidth();
         register_cases(cases, options, copy_bandwidth);
         const mesh_sizes& size = cloth.state.size;
-        run_and_report({threads, copy_bandwidth,
-                        {{"vertices", size.vertex_count}, {"faces", size.face_count}, {"hinges", size.hinge_count},
+        run_and_report({threads,
+                        copy_bandwidth,
+                        {{"vertices", size.vertex_count},
+                         {"faces", size.face_count},
+                         {"hinges", size.hinge_count},
                          {"stitches", size.stitch_count}}},
                        json, out);
         benchmark::ClearRegisteredBenchmarks();

@@ -7,10 +7,10 @@ namespace selvage {
 
 /// Options of the suite `kernels`.
 struct KernelOptions {
-    int vertices = 100000;     ///< About as many, in [16, 16e6].
-    int threads = 0;           ///< 0: all cores.
-    double min_time = 0.2;     ///< Measured per kernel at least [s].
-    std::string filter = "";   ///< Regular expression that is searched in the names; empty: all.
+    int vertices = 100000;    ///< About as many, in [16, 16e6].
+    int threads = 0;          ///< 0: all cores.
+    double min_time = 0.2;    ///< Measured per kernel at least [s].
+    std::string filter = "";  ///< Regular expression that is searched in the names; empty: all.
 };
 
 /// Reads `--vertices N`, `--threads N`, `--min-time S` and `--filter REGEX`; `--name=value` is the same.

@@ -46,9 +46,9 @@ void find_motion(SceneRunner& runner, const PrecisionScene& scene, PrecisionRefe
     reference.integrator = "rk4";
     reference.other_integrator = "velocity_verlet";
     reference.step = scene.reference_step > 0 ? scene.reference_step : limit / 8;
-    const std::vector<RunResult> runs = run_all(scene, {reference_setting("rk4", reference.step),
-                                                        reference_setting("velocity_verlet", reference.step),
-                                                        reference_setting("rk4", 2 * reference.step)});
+    const std::vector<RunResult> runs =
+        run_all(scene, {reference_setting("rk4", reference.step), reference_setting("velocity_verlet", reference.step),
+                        reference_setting("rk4", 2 * reference.step)});
     reference.positions = runs[0].positions;
     reference.other = runs[1].positions;
     const auto& start = runner.model().model.cloth.positions;
@@ -85,9 +85,13 @@ void add_motions(const IntegratorInfo& info, double until, double limit, int mos
         }
         return;
     }
-    struct Iterations { double tolerance, still; int most; };
+    struct Iterations {
+        double tolerance, still;
+        int most;
+    };
     for (int steps = 4; steps <= most_steps; steps *= 2)
-        for (const Iterations& it : {Iterations{1e-2, 3e-2, 1}, Iterations{1e-2, 3e-2, 3}, Iterations{1e-2, 3e-2, 0}, Iterations{1e-4, 1e-3, 0}})
+        for (const Iterations& it : {Iterations{1e-2, 3e-2, 1}, Iterations{1e-2, 3e-2, 3}, Iterations{1e-2, 3e-2, 0},
+                                     Iterations{1e-4, 1e-3, 0}})
             for (bool single : {true, false}) {
                 if (!single && (quick || it.tolerance > 1e-3)) continue;
                 RunSetting setting = reference_setting(std::string(info.name), until / steps);
@@ -105,14 +109,26 @@ std::vector<PrecisionScene> precision_scenes(const std::string& name)
 {
     // None of these cloths meets itself.
     std::vector<PrecisionScene> all = {
-        {"swing", "Sheet of 1 m swinging from its top edge, 0.4 s", "builtin:hanging",
+        {"swing",
+         "Sheet of 1 m swinging from its top edge, 0.4 s",
+         "builtin:hanging",
          {"sheet.resolution=33", "pins.sheet=top_edge", "solver.until=0.4"}},
-        {"cantilever", "Stiff strip of canvas, clamped and let go, 0.2 s", "builtin:cantilever",
+        {"cantilever",
+         "Stiff strip of canvas, clamped and let go, 0.2 s",
+         "builtin:cantilever",
          {"sheet.width=0.2", "sheet.height=0.1", "sheet.resolution=41", "sheet.fabric=canvas", "solver.until=0.2"}},
-        {"sphere", "Sheet of 1 m falling on a sphere, 0.2 s", "builtin:sphere",
-         {"sheet.resolution=21", "solver.until=0.2"}, false, 5e-6, 1024},   // each rebound must be followed
-        {"rest_cantilever", "Strip of cotton bending under its weight, at rest", "builtin:cantilever",
-         {"sheet.resolution=81"}, true}};
+        {"sphere",
+         "Sheet of 1 m falling on a sphere, 0.2 s",
+         "builtin:sphere",
+         {"sheet.resolution=21", "solver.until=0.2"},
+         false,
+         5e-6,
+         1024},  // each rebound must be followed
+        {"rest_cantilever",
+         "Strip of cotton bending under its weight, at rest",
+         "builtin:cantilever",
+         {"sheet.resolution=81"},
+         true}};
     for (PrecisionScene& scene : all) scene.overrides.push_back("contact.self=false");
     if (name.empty()) return all;
     std::vector<std::string> names;

@@ -11,9 +11,9 @@ namespace selvage {
 struct PrecisionScene {
     std::string name, title, source;
     std::vector<std::string> overrides;
-    bool at_rest = false;            ///< Only the shape at rest counts.
-    double reference_step = 0;       ///< Of a motion's reference [s]; 0: an eighth of the limit at the start.
-    int most_steps = 0;              ///< Into which implicit schemes divide a motion; 0: 64 if quick, else 256.
+    bool at_rest = false;       ///< Only the shape at rest counts.
+    double reference_step = 0;  ///< Of a motion's reference [s]; 0: an eighth of the limit at the start.
+    int most_steps = 0;         ///< Into which implicit schemes divide a motion; 0: 64 if quick, else 256.
 };
 
 /// One run: a point of the diagram.
@@ -21,17 +21,17 @@ struct PrecisionPoint {
     std::string scene, integrator;
     RunSetting setting;
     RunResult result;
-    double error = 0;                ///< See position_error [1].
+    double error = 0;  ///< See position_error [1].
 };
 
 /// What errors are measured against, and how far it is itself from being right.
 struct PrecisionReference {
-    std::vector<Vec3> positions, other;   ///< Of two different integrators; the second judges the first one's points.
+    std::vector<Vec3> positions, other;  ///< Of two different integrators; the second judges the first one's points.
     std::string integrator, other_integrator;
-    double step = 0;                      ///< Asked of both [s].
-    double refined_change = 0;            ///< Error of the reference at twice the step [1].
-    double difference = 0;                ///< Between the two [1].
-    double seconds = 0;                   ///< That finding it took.
+    double step = 0;            ///< Asked of both [s].
+    double refined_change = 0;  ///< Error of the reference at twice the step [1].
+    double difference = 0;      ///< Between the two [1].
+    double seconds = 0;         ///< That finding it took.
 };
 
 /// The scenes, or the named one.

@@ -8,11 +8,13 @@
 namespace selvage {
 namespace {
 
-PrecisionFront front_of(const std::vector<PrecisionPoint>& points, const std::string& scene, std::string_view integrator)
+PrecisionFront front_of(const std::vector<PrecisionPoint>& points, const std::string& scene,
+                        std::string_view integrator)
 {
     std::vector<std::pair<double, double>> found;
     for (const PrecisionPoint& point : points)
-        if (point.scene == scene && point.integrator == integrator && point.result.finished && std::isfinite(point.error))
+        if (point.scene == scene && point.integrator == integrator && point.result.finished &&
+            std::isfinite(point.error))
             found.emplace_back(point.result.cpu, std::max(point.error, 1e-12));
     std::sort(found.begin(), found.end());
     PrecisionFront front{std::string(integrator), {}, {}};

@@ -10,7 +10,7 @@ namespace selvage {
 /// Where an integrator does best: run time and error of those of its points that no other of its points beats in both.
 struct PrecisionFront {
     std::string integrator;
-    std::vector<double> seconds, error;   ///< Rising CPU time [s], falling error [1].
+    std::vector<double> seconds, error;  ///< Rising CPU time [s], falling error [1].
 };
 
 /// The fronts of one scene, in the order of integrators(); without those that never finished.

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/harness/chart.hpp"
 #include "bench/harness/child_run.hpp"
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
 #include "io/atomic_file.hpp"
-#include "bench/harness/chart.hpp"
 
 namespace selvage {
 namespace {
@@ -59,10 +59,13 @@ struct ScalingPoint {
     std::string scene, until;
     int threads = 1;
     ChildRun run;
-    double number(const char* key) const { return run.summary.is_null() || run.summary[key].is_null() ? 0 : run.summary[key].get<double>(); }
+    double number(const char* key) const
+    {
+        return run.summary.is_null() || run.summary[key].is_null() ? 0 : run.summary[key].get<double>();
+    }
     double vertices() const { return number("vertices"); }
     double step_s() const { return number("steps") > 0 ? number("wall_s") / number("steps") : 0; }
-    double contact_share() const;   ///< Of the time of all phases [1].
+    double contact_share() const;  ///< Of the time of all phases [1].
 };
 
 // What finds contacts and clears ways, and the terms of contact and friction.
@@ -72,8 +75,8 @@ double ScalingPoint::contact_share() const
     for (std::size_t k = 0; k < run.phases.size(); ++k) {
         const std::string name = run.phases[k].substr(run.phases[k].rfind('/') + 1);
         const bool meets = name.find("contact") != std::string::npos || name.find("friction") != std::string::npos ||
-                           name.find("repulsion") != std::string::npos || name == "body_query" || name == "advance_held" ||
-                           name == "cloth_tree" || name == "look_around";
+                           name.find("repulsion") != std::string::npos || name == "body_query" ||
+                           name == "advance_held" || name == "cloth_tree" || name == "look_around";
         all += run.self_s[k];
         contact += meets ? run.self_s[k] : 0;
     }
@@ -89,7 +92,8 @@ struct Quantity {
 constexpr Quantity quantities[] = {
     {"wall_s", "wall time [s]", [](const ScalingPoint& p) { return p.number("wall_s"); }},
     {"step_s", "time per step [s]", [](const ScalingPoint& p) { return p.step_s(); }},
-    {"peak_memory_bytes", "peak memory [MiB]", [](const ScalingPoint& p) { return p.run.peak_memory_bytes / (1 << 20); }},
+    {"peak_memory_bytes", "peak memory [MiB]",
+     [](const ScalingPoint& p) { return p.run.peak_memory_bytes / (1 << 20); }},
     {"newton_iterations", "Newton iterations", [](const ScalingPoint& p) { return p.number("newton_iterations"); }},
     {"linear_iterations", "linear iterations", [](const ScalingPoint& p) { return p.number("linear_iterations"); }},
     {"contacts", "vertices in contact", [](const ScalingPoint& p) { return double(p.run.contacts); }},
@@ -104,7 +108,8 @@ std::vector<std::string> series_names(const std::vector<ScalingPoint>& points)
 {
     std::vector<std::string> names;
     for (const ScalingPoint& point : points)
-        if (std::find(names.begin(), names.end(), series_name(point)) == names.end()) names.push_back(series_name(point));
+        if (std::find(names.begin(), names.end(), series_name(point)) == names.end())
+            names.push_back(series_name(point));
     return names;
 }
 
@@ -122,11 +127,12 @@ ChartSeries series_of(const std::vector<ScalingPoint>& points, const std::string
 
 ScalingOptions read_scaling_options(const std::vector<std::string>& arguments)
 {
-    auto given = read_options("bench scaling", arguments,
-                              {"--scene", "--min-vertices", "--max-vertices", "--threads", "--until", "--max-seconds",
-                               "--output", "--program"},
-                              "--scene NAME, --min-vertices N, --max-vertices N, --threads N, --until equilibrium|SECONDS, "
-                              "--max-seconds S, --output FOLDER or --program FILE");
+    auto given =
+        read_options("bench scaling", arguments,
+                     {"--scene", "--min-vertices", "--max-vertices", "--threads", "--until", "--max-seconds",
+                      "--output", "--program"},
+                     "--scene NAME, --min-vertices N, --max-vertices N, --threads N, --until equilibrium|SECONDS, "
+                     "--max-seconds S, --output FOLDER or --program FILE");
     ScalingOptions options;
     std::vector<std::string> names;
     for (const ScalingScene& scene : scaling_scenes()) names.push_back(scene.name);
@@ -135,8 +141,10 @@ ScalingOptions read_scaling_options(const std::vector<std::string>& arguments)
         if (name == "--until") options.until = value;
         if (name == "--output") options.output = value;
         if (name == "--program") options.program = value;
-        if (name == "--min-vertices") options.min_vertices = read_number(name, value, 100, 20'000'000, "vertices from 100 to 2e7");
-        if (name == "--max-vertices") options.max_vertices = read_number(name, value, 100, 20'000'000, "vertices from 100 to 2e7");
+        if (name == "--min-vertices")
+            options.min_vertices = read_number(name, value, 100, 20'000'000, "vertices from 100 to 2e7");
+        if (name == "--max-vertices")
+            options.max_vertices = read_number(name, value, 100, 20'000'000, "vertices from 100 to 2e7");
         if (name == "--threads") options.threads = {read_number(name, value, 1, 1024, "threads from 1 to 1024")};
         if (name == "--max-seconds") options.max_seconds = read_number(name, value, 1.0, 1e6, "seconds from 1 to 1e6");
     }
@@ -154,14 +162,22 @@ ScalingOptions read_scaling_options(const std::vector<std::string>& arguments)
 ScalingPoint measure(const ScalingOptions& options, const ScalingScene& scene, int vertices, int threads)
 {
     const std::string until = options.until.empty() ? scene.until : options.until;
-    const std::vector<std::string> arguments = {"builtin:" + scene.builtin, "--profile",
-                                                "--threads", std::to_string(threads),
-                                                "--set", scene.resolution(vertices),
-                                                "--set", "solver.until=" + (until == "equilibrium" ? "\"equilibrium\"" : until),
-                                                "--set", fmt::format("solver.max_wall={:g}", options.max_seconds),
-                                                "--set", "output.picture=false",
-                                                "--set", "output.frames=false",
-                                                "--set", "output.sewing=false"};
+    const std::vector<std::string> arguments = {"builtin:" + scene.builtin,
+                                                "--profile",
+                                                "--threads",
+                                                std::to_string(threads),
+                                                "--set",
+                                                scene.resolution(vertices),
+                                                "--set",
+                                                "solver.until=" + (until == "equilibrium" ? "\"equilibrium\"" : until),
+                                                "--set",
+                                                fmt::format("solver.max_wall={:g}", options.max_seconds),
+                                                "--set",
+                                                "output.picture=false",
+                                                "--set",
+                                                "output.frames=false",
+                                                "--set",
+                                                "output.sewing=false"};
     ScalingPoint point{scene.name, until, threads, run_child(options.program, arguments)};
     std::cerr << fmt::format("{}: {:.0f} vertices, {} threads, {:.1f} s, exit code {}\n", scene.name, point.vertices(),
                              threads, point.run.wall_s, point.run.exit_code);
@@ -171,11 +187,12 @@ ScalingPoint measure(const ScalingOptions& options, const ScalingScene& scene, i
 
 std::string csv_text(const std::vector<ScalingPoint>& points)
 {
-    std::string text = "scene,until,threads,vertices,wall_s,process_s,cpu_s,peak_memory_bytes,newton_iterations,"
-                       "linear_iterations,contacts,residual,exit_code,step_s,contact_share\n";
+    std::string text =
+        "scene,until,threads,vertices,wall_s,process_s,cpu_s,peak_memory_bytes,newton_iterations,"
+        "linear_iterations,contacts,residual,exit_code,step_s,contact_share\n";
     for (const ScalingPoint& p : points)
-        text += fmt::format("{},{},{},{:.0f},{:.6g},{:.6g},{:.6g},{:.0f},{:.0f},{:.0f},{},{:.4g},{},{:.4g},{:.3f}\n", p.scene, p.until,
-                            p.threads, p.vertices(), p.number("wall_s"), p.run.wall_s, p.run.cpu_s,
+        text += fmt::format("{},{},{},{:.0f},{:.6g},{:.6g},{:.6g},{:.0f},{:.0f},{:.0f},{},{:.4g},{},{:.4g},{:.3f}\n",
+                            p.scene, p.until, p.threads, p.vertices(), p.number("wall_s"), p.run.wall_s, p.run.cpu_s,
                             p.run.peak_memory_bytes, p.number("newton_iterations"), p.number("linear_iterations"),
                             p.run.contacts, p.number("residual"), p.run.exit_code, p.step_s(), p.contact_share());
     return text;
@@ -231,16 +248,20 @@ Image diagram(const std::vector<ScalingPoint>& points)
 
 std::string table(const std::vector<ScalingPoint>& points)
 {
-    std::string text = fmt::format("{:<10} {:>8} {:>10} {:>10} {:>12} {:>8} {:>8} {:>9} {:>10} {:>9} {:>8}\n", "scene", "threads",
-                                   "vertices", "wall s", "memory MiB", "Newton", "linear", "contacts", "residual",
-                                   "ms/step", "contact");
+    std::string text = fmt::format("{:<10} {:>8} {:>10} {:>10} {:>12} {:>8} {:>8} {:>9} {:>10} {:>9} {:>8}\n", "scene",
+                                   "threads", "vertices", "wall s", "memory MiB", "Newton", "linear", "contacts",
+                                   "residual", "ms/step", "contact");
     for (const ScalingPoint& p : points)
-        text += fmt::format("{:<10} {:>8} {:>10.0f} {:>10.2f} {:>12.1f} {:>8.0f} {:>8.0f} {:>9} {:>10.2e} {:>9.1f} {:>7.0f}%{}\n", p.scene,
-                            p.threads, p.vertices(), p.number("wall_s"), p.run.peak_memory_bytes / (1 << 20),
-                            p.number("newton_iterations"), p.number("linear_iterations"), p.run.contacts,
-                            p.number("residual"), 1e3 * p.step_s(), 100 * p.contact_share(), p.run.finished() ? "" : fmt::format("  not finished (exit code {})", p.run.exit_code));
-    text += "contact: share of the time of all phases in finding contacts, clearing ways, and forces of contact and friction\n"
-            "\ngrowth exponents against vertices\n";
+        text += fmt::format(
+            "{:<10} {:>8} {:>10.0f} {:>10.2f} {:>12.1f} {:>8.0f} {:>8.0f} {:>9} {:>10.2e} {:>9.1f} {:>7.0f}%{}\n",
+            p.scene, p.threads, p.vertices(), p.number("wall_s"), p.run.peak_memory_bytes / (1 << 20),
+            p.number("newton_iterations"), p.number("linear_iterations"), p.run.contacts, p.number("residual"),
+            1e3 * p.step_s(), 100 * p.contact_share(),
+            p.run.finished() ? "" : fmt::format("  not finished (exit code {})", p.run.exit_code));
+    text +=
+        "contact: share of the time of all phases in finding contacts, clearing ways, and forces of contact and "
+        "friction\n"
+        "\ngrowth exponents against vertices\n";
     for (const std::string& name : series_names(points)) {
         text += fmt::format("{:<24}", name);
         for (const Quantity& quantity : quantities) {

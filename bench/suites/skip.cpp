@@ -27,7 +27,7 @@ struct SkipOptions {
 
 struct SkipResult {
     SkipCase of;
-    double wall_s = std::numeric_limits<double>::infinity(), cpu_s = wall_s, peak_memory_bytes = wall_s;   // the least
+    double wall_s = std::numeric_limits<double>::infinity(), cpu_s = wall_s, peak_memory_bytes = wall_s;  // the least
     double linear_iterations = 0;
     std::int64_t launches = 0;
     bool in_use = false, embree = false, opencv = false;
@@ -39,9 +39,11 @@ SkipOptions read_skip_options(const std::vector<std::string>& arguments)
     for (const auto& [name, value] :
          read_options("bench skip", arguments, {"--resolution", "--repeats", "--until", "--feature", "--program"},
                       "--resolution N, --repeats N, --until S, --feature NAME or --program FILE")) {
-        if (name == "--resolution") options.resolution = read_number(name, value, 5, 2049, "vertices a side from 5 to 2049");
+        if (name == "--resolution")
+            options.resolution = read_number(name, value, 5, 2049, "vertices a side from 5 to 2049");
         if (name == "--repeats") options.repeats = read_number(name, value, 1, 100, "a number from 1 to 100");
-        if (name == "--until") options.until = read_number(name, value, 0.01, 100.0, "simulated seconds from 0.01 to 100");
+        if (name == "--until")
+            options.until = read_number(name, value, 0.01, 100.0, "simulated seconds from 0.01 to 100");
         if (name == "--feature") options.feature = value;
         if (name == "--program") options.program = value;
     }
@@ -119,17 +121,21 @@ std::string initialised(const SkipResult& r)
 
 std::string table(const std::vector<SkipResult>& results)
 {
-    std::string text = fmt::format("{:<13} {:<7} {:>7} {:>9} {:>9} {:>8} {:>11} {:>8} {:>9} {:>8}  {}\n", "feature", "state", "in use",
-                                   "wall s", "cpu s", "of absent", "memory MiB", "of absent", "launches", "linear", "initialised");
+    std::string text =
+        fmt::format("{:<13} {:<7} {:>7} {:>9} {:>9} {:>8} {:>11} {:>8} {:>9} {:>8}  {}\n", "feature", "state", "in use",
+                    "wall s", "cpu s", "of absent", "memory MiB", "of absent", "launches", "linear", "initialised");
     for (const SkipResult& r : results) {
         const SkipResult& absent = absent_of(results, r);
-        text += fmt::format("{:<13} {:<7} {:>7} {:>9.3f} {:>9.3f} {:>8.1f}% {:>11.1f} {:>8.1f}% {:>9} {:>8.0f}  {}\n", r.of.feature,
-                            r.of.state, r.in_use ? "yes" : "no", r.wall_s, r.cpu_s, 100 * r.cpu_s / absent.cpu_s,
-                            r.peak_memory_bytes / (1 << 20), 100 * r.peak_memory_bytes / absent.peak_memory_bytes,
-                            r.launches, r.linear_iterations, initialised(r));
+        text += fmt::format("{:<13} {:<7} {:>7} {:>9.3f} {:>9.3f} {:>8.1f}% {:>11.1f} {:>8.1f}% {:>9} {:>8.0f}  {}\n",
+                            r.of.feature, r.of.state, r.in_use ? "yes" : "no", r.wall_s, r.cpu_s,
+                            100 * r.cpu_s / absent.cpu_s, r.peak_memory_bytes / (1 << 20),
+                            100 * r.peak_memory_bytes / absent.peak_memory_bytes, r.launches, r.linear_iterations,
+                            initialised(r));
     }
-    return text + "times: the least of all repeats, of the whole process; of absent: processor time and memory against the run "
-                  "without the feature\n";
+    return text +
+           "times: the least of all repeats, of the whole process; of absent: processor time and memory against the "
+           "run "
+           "without the feature\n";
 }
 
 Json json_report(const std::vector<SkipResult>& results)

@@ -14,8 +14,8 @@ namespace {
 /// The parts of a scene that features change.
 struct SceneParts {
     std::string fabric, bodies, tables, output, solver, contact = "self = false", weft = "stretch_weft = 1000";
-    double damping = 0;            // without it a fabric has some
-    bool in_places = false;        // most of the cloth lies still
+    double damping = 0;      // without it a fabric has some
+    bool in_places = false;  // most of the cloth lies still
 };
 
 std::string scene_text(const SceneParts& parts, int resolution, double until)
@@ -49,12 +49,12 @@ until = {}
 [output]
 picture_width = 800
 {})",
-                       resolution, parts.weft, parts.damping, parts.fabric, parts.bodies, parts.tables, parts.contact, until, parts.solver,
-                       parts.output);
+                       resolution, parts.weft, parts.damping, parts.fabric, parts.bodies, parts.tables, parts.contact,
+                       until, parts.solver, parts.output);
 }
 
-// A small sheet that falls on a ball beside a large one that lies on the floor, to equilibrium. With one integrator for all of
-// the way, so that with and without sleep the same is done.
+// A small sheet that falls on a ball beside a large one that lies on the floor, to equilibrium. With one integrator for
+// all of the way, so that with and without sleep the same is done.
 std::string resting_scene(const SceneParts& parts, int resolution)
 {
     return fmt::format(R"([[sheet]]
@@ -91,8 +91,10 @@ constexpr const char* quiet_output = "picture = false\nframes = false\n";
 // An octahedron of radius 0.1 m: a body that only the ray tracing library can answer for.
 std::string write_octahedron(const std::string& folder)
 {
-    const std::vector<Vec3> vertices = {{0.1, 0, 0}, {-0.1, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}, {0, 0, 0.1}, {0, 0, -0.1}};
-    const std::vector<Face> faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    const std::vector<Vec3> vertices = {{0.1, 0, 0},  {-0.1, 0, 0}, {0, 0.1, 0},
+                                        {0, -0.1, 0}, {0, 0, 0.1},  {0, 0, -0.1}};
+    const std::vector<Face> faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                     {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     const std::string path = folder + "/octahedron.obj";
     const std::array objects{ObjObject{"octahedron", vertices, faces}};
     write_obj(path, objects);
@@ -109,8 +111,8 @@ using Change = std::function<void(SceneParts&)>;
 
 struct Feature {
     std::string name;
-    Change absent, idle, active;   // idle and active may be empty
-    std::string trace;             // what a profile shows, before the run is concluded, if the feature is in use
+    Change absent, idle, active;  // idle and active may be empty
+    std::string trace;            // what a profile shows, before the run is concluded, if the feature is in use
 };
 
 std::vector<Feature> features(const std::string& folder)
@@ -124,10 +126,12 @@ std::vector<Feature> features(const std::string& folder)
     const std::string loop = "hysteresis_weft = 2e-4\nhysteresis_warp = 2e-4\n";
     return {
         {"body", nothing, with_body(body(ball, false, 0)), with_body(body(ball, true, 0)), "body_query"},
-        {"friction", with_body(body(ball, true, 0)), with_body(body(ball, false, 0.3)), with_body(body(ball, true, 0.3)),
-         "friction"},
-        {"embree", with_body(body(ball, true, 0)), with_body(body(mesh, false, 0)), with_body(body(mesh, true, 0)), "embree"},
-        {"damping", nothing, [](SceneParts& parts) { parts.tables = "[fabric.other]\nbase = \"cotton\"\ndamping = 1\n"; },
+        {"friction", with_body(body(ball, true, 0)), with_body(body(ball, false, 0.3)),
+         with_body(body(ball, true, 0.3)), "friction"},
+        {"embree", with_body(body(ball, true, 0)), with_body(body(mesh, false, 0)), with_body(body(mesh, true, 0)),
+         "embree"},
+        {"damping", nothing,
+         [](SceneParts& parts) { parts.tables = "[fabric.other]\nbase = \"cotton\"\ndamping = 1\n"; },
          [](SceneParts& parts) { parts.damping = 1; }, "damping"},
         {"hysteresis", nothing, with_fabric(loop),
          [loop](SceneParts& parts) {
@@ -135,7 +139,8 @@ std::vector<Feature> features(const std::string& folder)
              parts.tables = "[bending]\nhysteresis = true\n";
          },
          "bending_hysteresis"},
-        {"curves", nothing, [curve](SceneParts& parts) { parts.tables = "[fabric.other]\nbase = \"cotton\"\n" + curve; },
+        {"curves", nothing,
+         [curve](SceneParts& parts) { parts.tables = "[fabric.other]\nbase = \"cotton\"\n" + curve; },
          [curve](SceneParts& parts) { parts.weft = curve; }, "curved_membrane"},
         {"seams", nothing, [](SceneParts& parts) { parts.tables = "[seams]\nstiffness = 4e4\n"; }, {}, "seam"},
         {"self-contact", nothing, [](SceneParts& parts) { parts.contact = "self = true"; }, {}, "cloth_contact_pairs"},
@@ -144,9 +149,12 @@ std::vector<Feature> features(const std::string& folder)
              parts.in_places = true;
              parts.solver = "sleep = false";
          },
-         {}, [](SceneParts& parts) { parts.in_places = true; }, "fall_asleep"},
+         {},
+         [](SceneParts& parts) { parts.in_places = true; },
+         "fall_asleep"},
         {"frames", nothing, {}, [](SceneParts& parts) { parts.output = "picture = false\n"; }, "write_frame"},
-        {"picture", nothing, [](SceneParts& parts) { parts.output = std::string("picture_samples = 8\n") + quiet_output; },
+        {"picture", nothing,
+         [](SceneParts& parts) { parts.output = std::string("picture_samples = 8\n") + quiet_output; },
          [](SceneParts& parts) { parts.output = "frames = false\n"; }, "opencv"},
     };
 }
@@ -165,7 +173,8 @@ std::vector<SkipCase> skip_cases(int resolution, double until, const std::string
             parts.output = quiet_output;
             change(parts);
             const std::string path = folder + "/" + feature.name + "_" + state + ".toml";
-            write_file_atomically(path, parts.in_places ? resting_scene(parts, resolution) : scene_text(parts, resolution, until));
+            write_file_atomically(
+                path, parts.in_places ? resting_scene(parts, resolution) : scene_text(parts, resolution, until));
             cases.push_back({feature.name, state, path, feature.trace});
         }
     }

@@ -10,15 +10,15 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
+#include <nlohmann/json.hpp>
 
+#include "bench/harness/chart.hpp"
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
 #include "bench/suites/stability_cells.hpp"
 #include "host/solver/stepping/integrator.hpp"
 #include "io/atomic_file.hpp"
-#include "bench/harness/chart.hpp"
 
 namespace selvage {
 namespace {
@@ -32,11 +32,13 @@ struct Survey {
 
 const std::vector<CellKind>& kinds()
 {
-    static const std::vector<CellKind> all = {{"stable", {86, 160, 96}},       {"recovered", {236, 200, 84}},
+    static const std::vector<CellKind> all = {{"stable", {86, 160, 96}},
+                                              {"recovered", {236, 200, 84}},
                                               {"refused, with a message", {126, 156, 220}},
                                               {"gave up, with a message", {168, 128, 190}},
                                               {"slow: time limit", {200, 200, 200}},
-                                              {"hung", {120, 60, 30}},         {"garbage", {210, 40, 40}}};
+                                              {"hung", {120, 60, 30}},
+                                              {"garbage", {210, 40, 40}}};
     return all;
 }
 
@@ -92,8 +94,9 @@ Survey run_survey(bool quick, const Keep& keep)
 
 std::string csv_text(const std::vector<StabilityResult>& cells)
 {
-    std::string text = "integrator,step_s,stiffness,resolution,damping_per_s,self_contact,start,verdict,energy_ratio,tangled,"
-                       "crossed,cpu_s\n";
+    std::string text =
+        "integrator,step_s,stiffness,resolution,damping_per_s,self_contact,start,verdict,energy_ratio,tangled,"
+        "crossed,cpu_s\n";
     for (const StabilityResult& r : cells)
         text += fmt::format("{},{:g},{:g},{},{:g},{},{},{},{:.6g},{},{},{:.4g}\n", r.cell.integrator, r.cell.step,
                             r.cell.stiffness, r.cell.resolution, r.cell.damping, int(r.cell.self_contact),
@@ -108,8 +111,8 @@ Json json_report(const Survey& survey)
     for (const StabilityResult& r : survey.cells) {
         Json run;
         run["name"] = fmt::format("{}/step:{:g}/stiffness:{:g}/resolution:{}/damping:{:g}/{}{}", r.cell.integrator,
-                                  r.cell.step, r.cell.stiffness, r.cell.resolution, r.cell.damping, name_of(r.cell.start),
-                                  r.cell.self_contact ? "/self" : "");
+                                  r.cell.step, r.cell.stiffness, r.cell.resolution, r.cell.damping,
+                                  name_of(r.cell.start), r.cell.self_contact ? "/self" : "");
         run["run_name"] = run["name"];
         run["run_type"] = "iteration";
         run["iterations"] = 1;
@@ -146,7 +149,8 @@ std::string step_label(double step)
     return fmt::format("{:.0f}e{}", step / std::pow(10.0, power), power);
 }
 
-CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integrator, int resolution, bool self_contact)
+CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integrator, int resolution,
+               bool self_contact)
 {
     CellMap map;
     map.title = fmt::format("{}, {} a side{}", integrator, resolution, self_contact ? ", self-contact" : "");
@@ -156,7 +160,8 @@ CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integ
         const bool here = r.cell.integrator == integrator && r.cell.resolution == resolution;
         if (!here || r.cell.self_contact != self_contact) continue;
         const std::string column = step_label(r.cell.step), row = row_of(r.cell);
-        if (std::find(map.columns.begin(), map.columns.end(), column) == map.columns.end()) map.columns.push_back(column);
+        if (std::find(map.columns.begin(), map.columns.end(), column) == map.columns.end())
+            map.columns.push_back(column);
         if (map.rows.empty() || map.rows.back() != row) map.rows.push_back(row);
         map.kind.push_back(int(r.verdict));
     }

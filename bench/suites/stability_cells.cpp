@@ -12,15 +12,15 @@
 namespace selvage {
 namespace {
 
-constexpr double patience = 20, hang = 60;   // for a cell, and for one step [s]
-constexpr double hurled_speed = 20;        // [m/s]
-constexpr double energy_slack = 1.5;       // symplectic schemes wave by a fifth near their limit; bursts have no bound
+constexpr double patience = 20, hang = 60;  // for a cell, and for one step [s]
+constexpr double hurled_speed = 20;         // [m/s]
+constexpr double energy_slack = 1.5;        // symplectic schemes wave by a fifth near their limit; bursts have no bound
 
 std::vector<std::string> overrides_of(const StabilityCell& cell, bool body)
 {
-    return {fmt::format("sheet.resolution={}", cell.resolution), "sheet.fabric=cotton",
+    return {fmt::format("sheet.resolution={}", cell.resolution),   "sheet.fabric=cotton",
             fmt::format("fabric.cotton.damping={}", cell.damping), fmt::format("membrane.scale={}", cell.stiffness),
-            fmt::format("bending.scale={}", cell.stiffness), fmt::format("contact.body={}", body),
+            fmt::format("bending.scale={}", cell.stiffness),       fmt::format("contact.body={}", body),
             fmt::format("contact.self={}", cell.self_contact)};
 }
 
@@ -35,7 +35,8 @@ void begin(ViolentStart kind, double spacing, State& state)
     for (int v = 0; v < state.size.vertex_count; ++v)
         for (int c = 0; c < 3; ++c) {
             real& x = state.pos[c * vs + v];
-            if (kind == ViolentStart::crumpled) x += 0.4 * spacing * scatter(3 * std::uint64_t(v) + c) + (c == 2 ? spacing : 0);
+            if (kind == ViolentStart::crumpled)
+                x += 0.4 * spacing * scatter(3 * std::uint64_t(v) + c) + (c == 2 ? spacing : 0);
             if (kind == ViolentStart::stretched && c < 2) x *= 1.5;
             if (kind == ViolentStart::hurled && c == 2) {
                 x += 0.3;
@@ -117,7 +118,8 @@ const char* name_of(ViolentStart start)
 
 const char* name_of(StabilityVerdict verdict)
 {
-    constexpr const char* names[verdict_count] = {"stable", "recovered", "refused", "gave up", "slow", "hung", "garbage"};
+    constexpr const char* names[verdict_count] = {"stable", "recovered", "refused", "gave up",
+                                                  "slow",   "hung",      "garbage"};
     return names[int(verdict)];
 }
 

@@ -4,15 +4,15 @@
 #include <iostream>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
+#include <nlohmann/json.hpp>
 
+#include "bench/harness/chart.hpp"
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
 #include "bench/suites/precision_front.hpp"
 #include "host/scene/scene_phase.hpp"
 #include "io/atomic_file.hpp"
-#include "bench/harness/chart.hpp"
 
 namespace selvage {
 namespace {
@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 struct Measured {
     std::vector<PrecisionScene> scenes;
     std::vector<PrecisionReference> references;
-    std::vector<std::string> standards;   // what `drape` takes when the scene does not say, per scene
+    std::vector<std::string> standards;  // what `drape` takes when the scene does not say, per scene
     std::vector<PrecisionPoint> points;
 };
 
@@ -59,21 +59,24 @@ void measure_scene(const PrecisionScene& scene, bool quick, Measured& to)
 
 std::string csv_text(const std::vector<PrecisionPoint>& points)
 {
-    std::string text = "scene,integrator,step_s,tolerance,still_m_per_s,most_iterations,precision,cpu_s,wall_s,position_error,steps,"
-                       "newton_iterations,linear_iterations,finished\n";
+    std::string text =
+        "scene,integrator,step_s,tolerance,still_m_per_s,most_iterations,precision,cpu_s,wall_s,position_error,steps,"
+        "newton_iterations,linear_iterations,finished\n";
     for (const PrecisionPoint& p : points)
-        text += fmt::format("{},{},{:.6g},{:g},{:g},{},{},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", p.scene, p.integrator,
-                            p.setting.step, p.setting.tolerance, p.setting.still, p.setting.iterations,
-                            p.setting.float_solves ? "float" : "double", p.result.cpu, p.result.wall, p.error, p.result.steps,
-                            p.result.newton_iterations, p.result.linear_iterations, int(p.result.finished));
+        text +=
+            fmt::format("{},{},{:.6g},{:g},{:g},{},{},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", p.scene, p.integrator,
+                        p.setting.step, p.setting.tolerance, p.setting.still, p.setting.iterations,
+                        p.setting.float_solves ? "float" : "double", p.result.cpu, p.result.wall, p.error,
+                        p.result.steps, p.result.newton_iterations, p.result.linear_iterations, int(p.result.finished));
     return text;
 }
 
 Json json_point(const PrecisionPoint& p)
 {
     Json run;
-    run["name"] = fmt::format("{}/{}/step:{:.3g}/tolerance:{:g}/iterations:{}/{}", p.scene, p.integrator, p.setting.step,
-                              p.setting.tolerance, p.setting.iterations, p.setting.float_solves ? "float" : "double");
+    run["name"] =
+        fmt::format("{}/{}/step:{:.3g}/tolerance:{:g}/iterations:{}/{}", p.scene, p.integrator, p.setting.step,
+                    p.setting.tolerance, p.setting.iterations, p.setting.float_solves ? "float" : "double");
     run["run_name"] = run["name"];
     run["run_type"] = "iteration";
     run["iterations"] = 1;
@@ -107,8 +110,8 @@ Json json_report(const Measured& measured)
                                                                     {"change_from_coarser", r.refined_change},
                                                                     {"other_integrator", r.other_integrator},
                                                                     {"difference", r.difference}};
-        report["context"]["verdicts"][measured.scenes[s].name] =
-            verdict_sentence(fronts(measured.points, measured.scenes[s].name), measured.scenes[s].name, measured.standards[s]);
+        report["context"]["verdicts"][measured.scenes[s].name] = verdict_sentence(
+            fronts(measured.points, measured.scenes[s].name), measured.scenes[s].name, measured.standards[s]);
     }
     report["benchmarks"] = Json::array();
     for (const PrecisionPoint& point : measured.points) report["benchmarks"].push_back(json_point(point));
@@ -135,7 +138,8 @@ std::string table(const Measured& measured)
     for (std::size_t s = 0; s < measured.scenes.size(); ++s) {
         const PrecisionScene& scene = measured.scenes[s];
         text += reference_line(scene, measured.references[s]);
-        text += fmt::format("  {:<20} {:>12} {:>12} {:>12} {:>12}\n", "CPU seconds at error", "10 %", "3 %", "1 %", "0.1 %");
+        text += fmt::format("  {:<20} {:>12} {:>12} {:>12} {:>12}\n", "CPU seconds at error", "10 %", "3 %", "1 %",
+                            "0.1 %");
         for (const PrecisionFront& front : fronts(measured.points, scene.name)) {
             text += fmt::format("  {:<20}", front.integrator);
             for (double error : {0.1, 0.03, 0.01, 0.001}) {

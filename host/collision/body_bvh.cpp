@@ -13,8 +13,8 @@
 namespace selvage {
 namespace {
 
-constexpr double rounding = 1e-6;         // of a length, in single precision, with a wide margin
-constexpr double on_surface = 1e-9;       // [m]; a path may start this far inside and still enter
+constexpr double rounding = 1e-6;    // of a length, in single precision, with a wide margin
+constexpr double on_surface = 1e-9;  // [m]; a path may start this far inside and still enter
 
 struct Corners {
     Vec3 a, b, c;
@@ -24,14 +24,14 @@ struct NearestSearch {
     const Corners* corners;
     const int* triangles;
     Vec3 x;
-    double slack;             // [m]; keeps the single-precision search from missing the closest triangle
+    double slack;  // [m]; keeps the single-precision search from missing the closest triangle
     NearestTriangle best;
 
     bool improve(int triangle, double squared_distance)
     {
-        const bool closer = squared_distance < best.squared_distance ||
-                            (squared_distance == best.squared_distance &&
-                             (best.triangle < 0 || triangle < best.triangle));
+        const bool closer =
+            squared_distance < best.squared_distance ||
+            (squared_distance == best.squared_distance && (best.triangle < 0 || triangle < best.triangle));
         if (closer) best = {triangle, squared_distance};
         return closer;
     }
@@ -49,7 +49,7 @@ bool visit_triangle(RTCPointQueryFunctionArguments* args)
 }
 
 struct EntrySearch {
-    RTCIntersectContext context;   // first, so that the library's pointer to it is one to this struct
+    RTCIntersectContext context;  // first, so that the library's pointer to it is one to this struct
     const BodySurface* surface;
     const int* triangles;
     Vec3 x0, x1;
@@ -92,13 +92,13 @@ EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(static_cast<RTCDevice>(handle_)
 
 struct BodyBvh::Impl {
     const BodySurface* surface;
-    std::vector<int> triangles;       // of the surface, by index in the hierarchy
+    std::vector<int> triangles;  // of the surface, by index in the hierarchy
     std::vector<Corners> corners;
-    Vec3 origin = Vec3::Zero();       // single-precision coordinates are relative to it
-    double extent = 0;                // largest distance of a triangle from the origin [m]
+    Vec3 origin = Vec3::Zero();  // single-precision coordinates are relative to it
+    double extent = 0;           // largest distance of a triangle from the origin [m]
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    float* vertex = nullptr;          // the hierarchy's own, nine per triangle
+    float* vertex = nullptr;  // the hierarchy's own, nine per triangle
 
     ~Impl() { rtcReleaseScene(scene); }
     void read_corners();

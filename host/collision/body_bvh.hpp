@@ -1,8 +1,8 @@
 #pragma once
 #include <memory>
 
-#include "host/model/body_motion.hpp"
 #include "host/collision/body_surface.hpp"
+#include "host/model/body_motion.hpp"
 
 namespace selvage {
 
@@ -21,13 +21,13 @@ private:
 };
 
 struct NearestTriangle {
-    int triangle = -1;             ///< -1: none within the radius.
-    double squared_distance = 0;   ///< [m^2]
+    int triangle = -1;            ///< -1: none within the radius.
+    double squared_distance = 0;  ///< [m^2]
 };
 
 struct SurfaceEntry {
-    int triangle = -1;             ///< -1: the path enters nowhere.
-    double fraction = 2;           ///< Of the path, in [0, 1].
+    int triangle = -1;    ///< -1: the path enters nowhere.
+    double fraction = 2;  ///< Of the path, in [0, 1].
 };
 
 /// A bounding volume hierarchy over the triangles of one body that touch a box.
@@ -45,8 +45,8 @@ public:
     /// Takes over the places to which the surface's vertices have moved; the hierarchy keeps its shape.
     void refit();
 
-    int triangle_count() const;   ///< In the hierarchy.
-    double far_radius(const Vec3& x) const;   ///< A radius around x that holds the whole body [m].
+    int triangle_count() const;              ///< In the hierarchy.
+    double far_radius(const Vec3& x) const;  ///< A radius around x that holds the whole body [m].
 
     /// Returns the triangle closest to x within the radius [m].
     /// @param hint  a triangle of an earlier answer, likely to be close still, or -1

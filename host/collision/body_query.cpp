@@ -16,8 +16,8 @@ namespace selvage {
 namespace {
 
 constexpr int vertices_per_task = 256;
-constexpr double search_factor = 4;      // searching this many radii far lets a vertex be skipped for longer
-constexpr double reach_growth = 0.25;    // of the reach's diagonal, when it must be widened
+constexpr double search_factor = 4;    // searching this many radii far lets a vertex be skipped for longer
+constexpr double reach_growth = 0.25;  // of the reach's diagonal, when it must be widened
 
 using VertexRange = tbb::blocked_range<int>;
 
@@ -27,10 +27,10 @@ Vec3 host_vector(vec3 v) { return {v.x, v.y, v.z}; }
 Vec3 vertex_at(const double* position, int stride, int vertex) { return host_vector(load3(position, stride, vertex)); }
 
 struct MeshBody {
-    int body;                        // index among all bodies
+    int body;  // index among all bodies
     const BodySurface* surface;
     BodyBvh bvh;
-    int mover;                       // index among those that move, or -1
+    int mover;  // index among those that move, or -1
 };
 
 struct AnalyticBody {
@@ -38,17 +38,17 @@ struct AnalyticBody {
     analytic_body shape, at_start;
 };
 
-constexpr int steps_per_look = 4;     // parts of a time whose ways are added up, so that no turn is missed
+constexpr int steps_per_look = 4;  // parts of a time whose ways are added up, so that no turn is missed
 
 /// A body that moves: where it is and where it was before the last move.
 struct Mover {
     int body;
     std::shared_ptr<const BodyMotion> motion;
-    Box box;                             // of the body as it starts
-    bool plane;                          // infinite: turning moves it without bound
+    Box box;     // of the body as it starts
+    bool plane;  // infinite: turning moves it without bound
     Placement now, before;
-    std::vector<Vec3> vertices_before;   // of a body that deforms
-    bool moved;                          // in the last move
+    std::vector<Vec3> vertices_before;  // of a body that deforms
+    bool moved;                         // in the last move
 };
 
 analytic_body placed(analytic_body shape, const Placement& place)
@@ -73,7 +73,7 @@ struct Nearest {
     double signed_distance = std::numeric_limits<double>::infinity();
     double gap = 0;
     Vec3 normal = Vec3::Zero();
-    double lower_bound = 0;          // of the distance to any body [m]
+    double lower_bound = 0;  // of the distance to any body [m]
 };
 
 struct GapSum {
@@ -111,23 +111,23 @@ void write_plane(const ContactPlanes& planes, int vertex, const Vec3& x, const N
 }  // namespace
 
 struct BodyQuery::Impl {
-    std::vector<std::pair<int, BodySurface>> surfaces;   // with the body's index
+    std::vector<std::pair<int, BodySurface>> surfaces;  // with the body's index
     std::vector<AnalyticBody> analytic;
     std::optional<EmbreeDevice> device;
     Box reach;
     std::vector<MeshBody> meshes;
     BodyQueryCounts counts;
     std::vector<Mover> movers;
-    std::vector<int> mover_of;                           // per body; -1: it stands still
+    std::vector<int> mover_of;  // per body; -1: it stands still
     double time = 0;
-    double travel = 0;                                   // bound of the way of any surface point in all moves [m]
+    double travel = 0;  // bound of the way of any surface point in all moves [m]
 
     // What is known about each vertex from its last search.
     std::vector<Vec3> last_position;
-    std::vector<double> lower_bound;                     // of the distance to any body from last_position [m]
+    std::vector<double> lower_bound;  // of the distance to any body from last_position [m]
     std::vector<int> last_body, last_triangle;
-    std::vector<double> last_travel;                     // only if there are movers [m]
-    std::vector<Vec3> last_weights;                      // of the closest point in its triangle; only if there are movers
+    std::vector<double> last_travel;  // only if there are movers [m]
+    std::vector<Vec3> last_weights;   // of the closest point in its triangle; only if there are movers
 
     Vec3 to_body(const MeshBody& mesh, const Vec3& x) const
     {
@@ -155,7 +155,7 @@ std::vector<MeshBody> BodyQuery::Impl::build(const Box& box) const
     constexpr double far = std::numeric_limits<double>::max();
     const Box everywhere(Vec3::Constant(-far), Vec3::Constant(far));
     for (const auto& [body, surface] : surfaces) {
-        const int mover = mover_of[body];   // of what moves all may come within reach
+        const int mover = mover_of[body];  // of what moves all may come within reach
         const bool deforms = mover >= 0 && movers[mover].motion->deforms();
         built.push_back({body, &surface, BodyBvh(*device, surface, mover < 0 ? box : everywhere, deforms), mover});
     }
@@ -227,8 +227,14 @@ void BodyQuery::Impl::add_mover(int index, const Body& body)
     Box box;
     for (const Vec3& x : body.mesh.vertices) box.extend(x);
     // The tessellation of a closed form lies within it.
-    movers.push_back({index, body.motion, grown(box, 0.01 * box.diagonal().norm()), body.kind == Body::Kind::plane,
-                      Placement::Identity(), Placement::Identity(), {}, false});
+    movers.push_back({index,
+                      body.motion,
+                      grown(box, 0.01 * box.diagonal().norm()),
+                      body.kind == Body::Kind::plane,
+                      Placement::Identity(),
+                      Placement::Identity(),
+                      {},
+                      false});
 }
 
 void BodyQuery::Impl::move(Mover& mover, double to)
@@ -238,7 +244,8 @@ void BodyQuery::Impl::move(Mover& mover, double to)
     if (!mover.moved) return;
     const Placement place = mover.motion->placement(to);
     const bool turns = !place.linear().isApprox(mover.now.linear(), 1e-15);
-    travel += mover.plane && turns ? std::numeric_limits<double>::infinity() : mover.motion->distance(time, to, mover.box);
+    travel +=
+        mover.plane && turns ? std::numeric_limits<double>::infinity() : mover.motion->distance(time, to, mover.box);
     mover.before = mover.now;
     mover.now = place;
     for (AnalyticBody& body : analytic)
@@ -447,7 +454,7 @@ BodyGap BodyQuery::measure(const double* position, int stride, int count) const
     const GapSum sum = tbb::parallel_reduce(
         VertexRange(0, count, vertices_per_task), GapSum(),
         [&](const VertexRange& range, GapSum part) {
-            std::vector<int> hints(meshes.size(), -1);   // the previous vertex's triangle bounds the search
+            std::vector<int> hints(meshes.size(), -1);  // the previous vertex's triangle bounds the search
             for (int v = range.begin(); v < range.end(); ++v) {
                 const double distance = signed_distance(vertex_at(position, stride, v), hints);
                 part.min_gap = std::min(part.min_gap, distance);
@@ -455,7 +462,9 @@ BodyGap BodyQuery::measure(const double* position, int stride, int count) const
             }
             return part;
         },
-        [](const GapSum& a, const GapSum& b) { return GapSum{std::min(a.min_gap, b.min_gap), a.inside + b.inside}; });
+        [](const GapSum& a, const GapSum& b) {
+            return GapSum{std::min(a.min_gap, b.min_gap), a.inside + b.inside};
+        });
     return {std::max(0.0, -sum.min_gap), sum.min_gap, sum.inside};
 }
 

@@ -11,10 +11,10 @@ namespace selvage {
 /// Where `BodyQuery::nearest` writes its answers: one contact plane per vertex, the gap being normal . x - offset.
 /// A vertex without a contact gets body -1, a zero normal and the offset `no_contact_offset`.
 struct ContactPlanes {
-    int stride = 0;             ///< Between the component planes of `normal`.
-    double* normal = nullptr;   ///< Unit, out of the body: component c of vertex v at [c * stride + v].
-    double* offset = nullptr;   ///< [m], one per vertex.
-    int* body = nullptr;        ///< Index of the body, one per vertex.
+    int stride = 0;            ///< Between the component planes of `normal`.
+    double* normal = nullptr;  ///< Unit, out of the body: component c of vertex v at [c * stride + v].
+    double* offset = nullptr;  ///< [m], one per vertex.
+    int* body = nullptr;       ///< Index of the body, one per vertex.
 };
 
 /// Makes the gap of a vertex without a contact larger than any real one [m].
@@ -22,25 +22,25 @@ inline constexpr double no_contact_offset = -1e9;
 
 /// The first place at which a path enters a body.
 struct BodyCrossing {
-    int body = -1;              ///< -1: the path enters no body.
-    int triangle = -1;          ///< Face of the body's mesh; -1 for the closed forms.
-    double fraction = 2;        ///< Of the path, in [0, 1].
-    double way_beyond = 0;      ///< Length of the path behind the entry [m].
+    int body = -1;          ///< -1: the path enters no body.
+    int triangle = -1;      ///< Face of the body's mesh; -1 for the closed forms.
+    double fraction = 2;    ///< Of the path, in [0, 1].
+    double way_beyond = 0;  ///< Length of the path behind the entry [m].
 };
 
 /// Distances of a cloth to the bodies, exact for the triangulated meshes and the closed forms.
 struct BodyGap {
-    double max_penetration_m = 0;   ///< Depth of the deepest vertex, 0 if none is inside.
-    double min_gap_m = 0;           ///< Smallest signed distance; infinite if there are no vertices or no bodies.
+    double max_penetration_m = 0;  ///< Depth of the deepest vertex, 0 if none is inside.
+    double min_gap_m = 0;          ///< Smallest signed distance; infinite if there are no vertices or no bodies.
     int vertices_inside = 0;
 };
 
 struct BodyQueryCounts {
-    long long made = 0;         ///< Vertex queries answered by a search.
-    long long skipped = 0;      ///< Vertex queries answered by a lower bound of the distance.
-    int triangles_used = 0;     ///< In the hierarchies now.
-    int triangles_total = 0;    ///< Of all mesh bodies.
-    int rebuilds = 0;           ///< How often the cloth left its reach.
+    long long made = 0;       ///< Vertex queries answered by a search.
+    long long skipped = 0;    ///< Vertex queries answered by a lower bound of the distance.
+    int triangles_used = 0;   ///< In the hierarchies now.
+    int triangles_total = 0;  ///< Of all mesh bodies.
+    int rebuilds = 0;         ///< How often the cloth left its reach.
 };
 
 /// Answers where a cloth is in relation to the bodies of a scene, which may move: they start where they are at time 0.
@@ -56,7 +56,7 @@ public:
     BodyQuery(BodyQuery&&) noexcept;
     BodyQuery& operator=(BodyQuery&&) noexcept;
 
-    bool empty() const;             ///< No bodies: nothing needs to be asked.
+    bool empty() const;  ///< No bodies: nothing needs to be asked.
     bool uses_embree() const;
     const BodyQueryCounts& counts() const;
 
@@ -69,9 +69,9 @@ public:
     /// @param planes    written for vertices 0 to count - 1
     void nearest(const double* position, int stride, int count, double radius, const ContactPlanes& planes);
 
-    bool moves() const;             ///< A body moves at some time.
-    double motion_end() const;      ///< Time after which all bodies stand still [s]; 0 if none moves.
-    double time() const;            ///< At which the bodies are placed [s].
+    bool moves() const;         ///< A body moves at some time.
+    double motion_end() const;  ///< Time after which all bodies stand still [s]; 0 if none moves.
+    double time() const;        ///< At which the bodies are placed [s].
 
     /// Places all bodies where they are at a time [s].
     void move_to(double time);

@@ -12,10 +12,10 @@
 namespace selvage {
 namespace {
 
-constexpr double cosine_sharp = 0.642787609686539;   // of 50 degrees
-constexpr double agreement_full = 0.5;     // cosine above which the smooth normal is used as it is
-constexpr double agreement_none = 0.25;    // and below which only the direction to the closest point counts
-constexpr double least_distance = 1e-12;   // [m]; below, the direction to the closest point is rounding
+constexpr double cosine_sharp = 0.642787609686539;  // of 50 degrees
+constexpr double agreement_full = 0.5;              // cosine above which the smooth normal is used as it is
+constexpr double agreement_none = 0.25;             // and below which only the direction to the closest point counts
+constexpr double least_distance = 1e-12;            // [m]; below, the direction to the closest point is rounding
 
 double corner_angle(const Vec3& apex, const Vec3& a, const Vec3& b)
 {
@@ -105,7 +105,7 @@ void BodySurface::find_neighbours(const Sides& sides)
         while (last < sides.size() && same_edge(sides[last], sides[first])) ++last;
         if (last - first != 2) continue;
         const int side0 = std::get<2>(sides[first]), side1 = std::get<2>(sides[first + 1]);
-        if (faces_[side0 / 3][side0 % 3] == faces_[side1 / 3][side1 % 3]) continue;   // wound against each other
+        if (faces_[side0 / 3][side0 % 3] == faces_[side1 / 3][side1 % 3]) continue;  // wound against each other
         neighbour_[side0 / 3][side0 % 3] = side1;
         neighbour_[side1 / 3][side1 % 3] = side0;
     }
@@ -141,7 +141,7 @@ void BodySurface::find_groups()
         for (int k = 0; k < 3; ++k) {
             const int side = neighbour_[f][k];
             if (side < 3 * f || is_sharp(f, k)) continue;
-            const int g = side / 3, edge = side % 3;   // runs against edge k of f
+            const int g = side / 3, edge = side % 3;  // runs against edge k of f
             join(parent, 3 * f + k, 3 * g + (edge + 1) % 3);
             join(parent, 3 * f + (k + 1) % 3, 3 * g + edge);
         }

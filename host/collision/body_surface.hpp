@@ -54,7 +54,7 @@ public:
 private:
     using Corners = std::array<Vec3, 3>;
 
-    using Sides = std::vector<std::tuple<int, int, int>>;   ///< Lower and higher vertex of an edge, 3 * face + edge.
+    using Sides = std::vector<std::tuple<int, int, int>>;  ///< Lower and higher vertex of an edge, 3 * face + edge.
 
     void find_face_normals();
     Sides sorted_sides() const;
@@ -69,14 +69,14 @@ private:
 
     std::vector<Vec3> vertices_;
     std::vector<Face> faces_;
-    std::vector<Vec3> face_normals_;            ///< Unit, or zero for a face without area.
-    std::vector<Vec3> vertex_normals_;          ///< Angle-weighted sums over all faces of a vertex.
-    std::vector<Corners> edge_normals_;         ///< Per face and edge: sum over the faces of the edge.
-    std::vector<Corners> corner_normals_;       ///< Per face and corner: unit, smooth up to sharp edges.
-    std::vector<std::array<int, 3>> corner_group_;   ///< Equal for the corners that share one normal.
-    std::vector<char> has_several_groups_;      ///< Per vertex: it lies on sharp edges that divide its faces.
-    Sides sides_;                               ///< Kept by a surface that deforms.
-    std::vector<std::array<int, 3>> neighbour_; ///< Per face and edge: 3 * face + edge beyond it, or -1.
+    std::vector<Vec3> face_normals_;                ///< Unit, or zero for a face without area.
+    std::vector<Vec3> vertex_normals_;              ///< Angle-weighted sums over all faces of a vertex.
+    std::vector<Corners> edge_normals_;             ///< Per face and edge: sum over the faces of the edge.
+    std::vector<Corners> corner_normals_;           ///< Per face and corner: unit, smooth up to sharp edges.
+    std::vector<std::array<int, 3>> corner_group_;  ///< Equal for the corners that share one normal.
+    std::vector<char> has_several_groups_;          ///< Per vertex: it lies on sharp edges that divide its faces.
+    Sides sides_;                                   ///< Kept by a surface that deforms.
+    std::vector<std::array<int, 3>> neighbour_;     ///< Per face and edge: 3 * face + edge beyond it, or -1.
 };
 
 }  // namespace selvage

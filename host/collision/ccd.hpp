@@ -40,16 +40,16 @@ inline double pair_approach(const PairCorners& move, bool edges)
     return edges ? std::max(way[0], way[1]) + std::max(way[2], way[3]) : way[0] + std::max({way[1], way[2], way[3]});
 }
 
-/// Returns how much of a straight move the pair can make without coming nearer than `least`; at most 1. Never too large:
-/// the bound of the approach holds for every part of the move.
-/// Source: additive continuous collision detection, Li and others 2021 (C-IPC), algorithm 1.
+/// Returns how much of a straight move the pair can make without coming nearer than `least`; at most 1. Never too
+/// large: the bound of the approach holds for every part of the move. Source: additive continuous collision detection,
+/// Li and others 2021 (C-IPC), algorithm 1.
 /// @param distance  at the start [m], > least > 0    @param approach  pair_approach of the move [m]
 /// @param enough    1 is returned as soon as at least this part is found to be free
 inline double free_fraction(PairCorners x, const PairCorners& move, bool edges, double distance, double approach,
                             double least, double enough = 1)
 {
     const Vec3 mean = 0.25 * (move[0] + move[1] + move[2] + move[3]);
-    const double close = 0.02 * (distance - least);   // of what there is to lose: who moves apart is not stopped
+    const double close = 0.02 * (distance - least);  // of what there is to lose: who moves apart is not stopped
     double done = 0;
     for (int iteration = 0; iteration < 200; ++iteration) {
         const double step = (distance - least) / approach;

@@ -15,10 +15,10 @@
 namespace selvage {
 namespace {
 
-constexpr double flat_to_skip = 0.4, flat_to_stay = 0.25;   // least s - e of a subtree that is skipped
+constexpr double flat_to_skip = 0.4, flat_to_stay = 0.25;  // least s - e of a subtree that is skipped
 constexpr double slack_of_way = 0.02;                      // of a corner's move
 constexpr int grain = 512;
-constexpr std::size_t frontier = 256;                      // pieces that a search is divided into
+constexpr std::size_t frontier = 256;  // pieces that a search is divided into
 
 using Range = tbb::blocked_range<int>;
 
@@ -76,8 +76,8 @@ double ClothTree::Gradients::stretch_bound() const
     return std::sqrt(std::max(smaller, 0.0)) - std::sqrt(squared_spread);
 }
 
-// Boxes in the moving frame, grown by half of the reach and by slack: a little more the further a corner goes, since the
-// next move will go elsewhere by a part of it. Bodies that stand still need no slack.
+// Boxes in the moving frame, grown by half of the reach and by slack: a little more the further a corner goes, since
+// the next move will go elsewhere by a part of it. Bodies that stand still need no slack.
 void ClothTree::refit_boxes(bool bodies_move, bool bodies_too)
 {
     parallel(bodies_too ? int(start_.size()) : particles_, [&](int k) {
@@ -223,13 +223,16 @@ double ClothTree::part_gone(const std::vector<Vec3>& at) const
             }
             return sum;
         },
-        [](const Sums& a, const Sums& b) { return Sums{a[0] + b[0], a[1] + b[1]}; });
+        [](const Sums& a, const Sums& b) {
+            return Sums{a[0] + b[0], a[1] + b[1]};
+        });
     return sums[1] > 0 ? std::clamp(sums[0] / sums[1], 0.0, 1.0) : 0;
 }
 
 bool ClothTree::still_complete(const TreeBodies& bodies, double reach, double body_reach) const
 {
-    if (!valid_ || reach > reach_ || body_reach > body_reach_ || bodies.moves || bodies.version != body_version_) return false;
+    if (!valid_ || reach > reach_ || body_reach > body_reach_ || bodies.moves || bodies.version != body_version_)
+        return false;
     const double part = part_gone(start_), end_part = part_gone(end_);
     return tbb::parallel_reduce(
         Range(0, particles_, 4096), true,
@@ -426,7 +429,7 @@ void ClothTree::meet(int face_a, int face_b, std::vector<PairCandidate>& found) 
     if (!is_awake_.empty() && face_sleeps_[face_a] && face_sleeps_[face_b]) return;
     if (!face_box_[face_a].meets(face_box_[face_b])) return;
     const Face &a = surface_.faces[face_a], &b = surface_.faces[face_b];
-    const std::array<int, 3> &edges_of_a = own_edges_[face_a], &edges_of_b = own_edges_[face_b];
+    const std::array<int, 3>&edges_of_a = own_edges_[face_a], &edges_of_b = own_edges_[face_b];
     std::array<bool, 3> near_b;
     for (int l = 0; l < 3; ++l) {
         if ((owned_[face_b] >> l & 1) && corner_box_[slot(b[l])].meets(face_box_[face_a]))
@@ -440,7 +443,8 @@ void ClothTree::meet(int face_a, int face_b, std::vector<PairCandidate>& found) 
         const Sweep& box_of_a = edge_box_[edges_of_a[k]];
         if (!box_of_a.meets(face_box_[face_b])) continue;
         for (int l = 0; l < 3; ++l)
-            if (near_b[l] && box_of_a.meets(edge_box_[edges_of_b[l]])) offer({{a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]}, true}, found);
+            if (near_b[l] && box_of_a.meets(edge_box_[edges_of_b[l]]))
+                offer({{a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]}, true}, found);
     }
 }
 
@@ -448,7 +452,8 @@ std::size_t ClothTree::bytes() const
 {
     return nodes_.size() * (sizeof(Node) + sizeof(Sweep) + sizeof(Gradients)) +
            surface_.faces.size() * (sizeof(Face) + 3 * sizeof(Vec2) + sizeof(Sweep) + sizeof(Gradients) + 52) +
-           edges_.size() * (sizeof(Sweep) + 2 * sizeof(int)) + near_.size() * sizeof(int) + start_.size() * (4 * sizeof(Vec3) + sizeof(Sweep) + sizeof(float)) +
+           edges_.size() * (sizeof(Sweep) + 2 * sizeof(int)) + near_.size() * sizeof(int) +
+           start_.size() * (4 * sizeof(Vec3) + sizeof(Sweep) + sizeof(float)) +
            candidates_.capacity() * sizeof(PairCandidate);
 }
 

@@ -44,9 +44,9 @@ std::vector<std::array<int, 2>> outline_of(const std::vector<Face>& faces, int f
 struct ClothTree::PatchBuild {
     int patch = 0;
     bool flat = false, convex = false;
-    double largest = 0;                         // way from a face's middle to its corners, at most [m]
-    std::vector<Vec3> middle;                   // per face of the surface
-    std::vector<std::array<Vec2, 2>> outline;   // edges of a panel that is not convex
+    double largest = 0;                        // way from a face's middle to its corners, at most [m]
+    std::vector<Vec3> middle;                  // per face of the surface
+    std::vector<std::array<Vec2, 2>> outline;  // edges of a panel that is not convex
 };
 
 ClothTree::ClothTree(TreeSurface surface, double slack)
@@ -99,7 +99,7 @@ void ClothTree::own_primitives()
     for (std::size_t i = 0; i < sides.size(); ++i)
         if (i == 0 || sides[i].low != sides[i - 1].low || sides[i].high != sides[i - 1].high)
             own_edges_[sides[i].face][sides[i].local] = 0;
-    for (std::size_t f = 0; f < own_edges_.size(); ++f)   // in the order of the faces, as they will be read
+    for (std::size_t f = 0; f < own_edges_.size(); ++f)  // in the order of the faces, as they will be read
         for (int k = 0; k < 3; ++k) {
             if (own_edges_[f][k] < 0) continue;
             own_edges_[f][k] = int(edges_.size());
@@ -171,7 +171,9 @@ ClothTree::Cell ClothTree::part_of(const PatchBuild& build, const Cell& cell, co
 void ClothTree::build(PatchBuild& state, int first, int count, const Cell& cell)
 {
     const int at = int(nodes_.size());
-    nodes_.push_back({.first = first, .count = count, .patch = state.patch,
+    nodes_.push_back({.first = first,
+                      .count = count,
+                      .patch = state.patch,
                       .may_be_flat = state.flat && (state.convex || cell.outline.empty())});
     if (count <= leaf_faces) {
         nodes_[at].first_near = int(near_.size());

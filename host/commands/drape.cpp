@@ -52,7 +52,8 @@ void add_drape_command(CLI::App& program, Action& chosen)
         ->type_name("float|double");
     command->add_flag("--resume", arguments->run.resume, "go on from the checkpoint in the output folder");
     command->add_flag("--quiet", arguments->run.quiet, "no progress on stderr");
-    command->add_flag("--profile", arguments->run.profile, "print what each phase costs; writes trace.json, to be opened in Perfetto");
+    command->add_flag("--profile", arguments->run.profile,
+                      "print what each phase costs; writes trace.json, to be opened in Perfetto");
     command->add_flag("--json", arguments->json, "print summary.json on stdout at the end");
     command->footer(
         "Example:\n"

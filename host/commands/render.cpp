@@ -41,7 +41,8 @@ void add_render_command(CLI::App& program, Action& chosen)
     command->add_option("--width", arguments->width, "width of the picture in pixels")
         ->check(CLI::Range(64, 16384))
         ->capture_default_str();
-    command->add_option("--bodies", arguments->bodies, "also write the bodies as they are in that frame")->type_name("OBJ");
+    command->add_option("--bodies", arguments->bodies, "also write the bodies as they are in that frame")
+        ->type_name("OBJ");
     command->footer("Example:\n  selvage render out/run.h5 --frame 12 -o frame12.png");
     command->callback([arguments, &chosen] { chosen = [arguments] { return render(*arguments); }; });
 }

@@ -8,10 +8,10 @@
 
 #include <tbb/parallel_for.h>
 
-#include "host/mesh/grid_point.hpp"
 #include "host/garment/outline.hpp"
-#include "host/mesh/panel_mesh.hpp"
 #include "host/garment/seam.hpp"
+#include "host/mesh/grid_point.hpp"
+#include "host/mesh/panel_mesh.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -24,7 +24,7 @@ struct MeshedPanel {
     PanelMesh mesh;
     std::vector<std::vector<int>> edge_vertices;  // by edge, from its start to its end
     double area = 0, boundary = 0;
-    bool clockwise = false;   ///< How the pattern draws the outline: a panel is drawn as seen from its outside.
+    bool clockwise = false;  ///< How the pattern draws the outline: a panel is drawn as seen from its outside.
 };
 
 std::string number_text(double value)
@@ -120,8 +120,7 @@ std::vector<int> add_panel(Cloth& cloth, const PatternPanel& panel, const Meshed
 {
     const int first_vertex = int(cloth.positions.size());
     cloth.panels.push_back({panel.name, fabric, first_vertex, int(meshed.mesh.vertices.size()), int(cloth.faces.size()),
-                            int(meshed.mesh.faces.size()), meshed.area, meshed.boundary,
-                            meshed.clockwise});
+                            int(meshed.mesh.faces.size()), meshed.area, meshed.boundary, meshed.clockwise});
     for (const Vec2& point : meshed.mesh.vertices) {
         cloth.panel_coordinates.push_back(point);
         cloth.positions.push_back(place_on_panel(panel, point));

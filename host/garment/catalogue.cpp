@@ -12,7 +12,8 @@ constexpr int front_panel = 0, back_panel = 1, left_sleeve_panel = 2, right_slee
 
 /// Front and back, sewn at shoulders and sides. The panels face away from each other: the wearer's left is the
 /// front's right and the back's left.
-Pattern draft_body(const BodiceStyle& style, const MannequinMeasures& measures, const MannequinLandmarks& landmarks) {
+Pattern draft_body(const BodiceStyle& style, const MannequinMeasures& measures, const MannequinLandmarks& landmarks)
+{
     Pattern pattern;
     pattern.panels = {draft_bodice(BodiceSide::front, style, measures, landmarks),
                       draft_bodice(BodiceSide::back, style, measures, landmarks)};
@@ -23,21 +24,22 @@ Pattern draft_body(const BodiceStyle& style, const MannequinMeasures& measures, 
     return pattern;
 }
 
-void add_sleeves(Pattern& pattern, const SleeveStyle& style, const MannequinLandmarks& landmarks) {
+void add_sleeves(Pattern& pattern, const SleeveStyle& style, const MannequinLandmarks& landmarks)
+{
     const double front = edge_length(pattern.panels[front_panel], armhole_right);
     const double back = edge_length(pattern.panels[back_panel], armhole_right);
     for (int hand : {0, 1}) pattern.panels.push_back(draft_sleeve(hand, style, front, back, landmarks));
-    const std::vector<PatternStitch> stitches{
-        {{left_sleeve_panel, cap_left}, {front_panel, armhole_right}},
-        {{left_sleeve_panel, cap_right}, {back_panel, armhole_left}},
-        {{right_sleeve_panel, cap_right}, {front_panel, armhole_left}},
-        {{right_sleeve_panel, cap_left}, {back_panel, armhole_right}},
-        {{left_sleeve_panel, under_right}, {left_sleeve_panel, under_left}},
-        {{right_sleeve_panel, under_right}, {right_sleeve_panel, under_left}}};
+    const std::vector<PatternStitch> stitches{{{left_sleeve_panel, cap_left}, {front_panel, armhole_right}},
+                                              {{left_sleeve_panel, cap_right}, {back_panel, armhole_left}},
+                                              {{right_sleeve_panel, cap_right}, {front_panel, armhole_left}},
+                                              {{right_sleeve_panel, cap_left}, {back_panel, armhole_right}},
+                                              {{left_sleeve_panel, under_right}, {left_sleeve_panel, under_left}},
+                                              {{right_sleeve_panel, under_right}, {right_sleeve_panel, under_left}}};
     pattern.stitches.insert(pattern.stitches.end(), stitches.begin(), stitches.end());
 }
 
-Pattern draft_tshirt(const MannequinMeasures& measures, const MannequinLandmarks& landmarks) {
+Pattern draft_tshirt(const MannequinMeasures& measures, const MannequinLandmarks& landmarks)
+{
     BodiceStyle style;
     style.bust_ease = 0.16;
     style.length = 0.442 * measures.stature;
@@ -46,7 +48,8 @@ Pattern draft_tshirt(const MannequinMeasures& measures, const MannequinLandmarks
     return pattern;
 }
 
-Pattern draft_vest(const MannequinMeasures& measures, const MannequinLandmarks& landmarks) {
+Pattern draft_vest(const MannequinMeasures& measures, const MannequinLandmarks& landmarks)
+{
     BodiceStyle style;
     style.bust_ease = 0.12;
     style.length = 0.37 * measures.stature;
@@ -64,7 +67,8 @@ Pattern draft_vest(const MannequinMeasures& measures, const MannequinLandmarks& 
 
 std::vector<std::string> builtin_pattern_names() { return {"tshirt", "vest"}; }
 
-Pattern builtin_pattern(const std::string& name, const std::string& size) {
+Pattern builtin_pattern(const std::string& name, const std::string& size)
+{
     const MannequinMeasures measures = mannequin_size(size);
     const MannequinLandmarks landmarks = mannequin_landmarks(measures);
     Pattern pattern;

@@ -9,23 +9,26 @@
 namespace selvage {
 namespace {
 
-const double gap_to_torso = 0.045;      // Between the torso's extremes and a panel's centre line [m].
-const double gap_to_shoulder = 0.055;   // Between a sleeve's start and its seat on the shoulder, along the arm [m].
+const double gap_to_torso = 0.045;     // Between the torso's extremes and a panel's centre line [m].
+const double gap_to_shoulder = 0.055;  // Between a sleeve's start and its seat on the shoulder, along the arm [m].
 
 PatternEdge straight(int start, int end) { return {.start = start, .end = end}; }
 
-PatternEdge quadratic(int start, int end, const Vec2& control) {
+PatternEdge quadratic(int start, int end, const Vec2& control)
+{
     return {.start = start, .end = end, .curve = EdgeCurve::quadratic, .control = {control, Vec2::Zero()}};
 }
 
-PatternEdge cubic(int start, int end, const Vec2& first, const Vec2& second) {
+PatternEdge cubic(int start, int end, const Vec2& first, const Vec2& second)
+{
     return {.start = start, .end = end, .curve = EdgeCurve::cubic, .control = {first, second}};
 }
 
 Vec2 mirrored(const Vec2& point) { return {-point.x(), point.y()}; }
 
 /// Root of an increasing function between low and high.
-double bisect(double low, double high, const std::function<double(double)>& increasing) {
+double bisect(double low, double high, const std::function<double(double)>& increasing)
+{
     for (int halving = 0; halving < 50; ++halving) {
         const double middle = 0.5 * (low + high);
         (increasing(middle) < 0 ? low : high) = middle;
@@ -34,24 +37,31 @@ double bisect(double low, double high, const std::function<double(double)>& incr
 }
 
 /// Control points of a cap half from the underarm (width, 0) to the top (0, height): an S, level at both ends.
-std::array<Vec2, 2> cap_controls(double width, double height) {
+std::array<Vec2, 2> cap_controls(double width, double height)
+{
     return {Vec2(0.60 * width, 0), Vec2(0.42 * width, height)};
 }
 
-double cap_length(double width, double height) {
+double cap_length(double width, double height)
+{
     const auto [first, second] = cap_controls(width, height);
-    const PatternPanel half{.name = {}, .vertices = {{width, 0}, {0, height}}, .edges = {cubic(0, 1, first, second)},
-                            .wrap = {}, .fabric = {}};
+    const PatternPanel half{.name = {},
+                            .vertices = {{width, 0}, {0, height}},
+                            .edges = {cubic(0, 1, first, second)},
+                            .wrap = {},
+                            .fabric = {}};
     return edge_length(half, 0);
 }
 
 /// Width of a cap half of the given height whose curve is `length` long.
-double cap_width(double length, double height) {
+double cap_width(double length, double height)
+{
     return bisect(0, length, [&](double width) { return cap_length(width, height) - length; });
 }
 
 /// Columns: the panel's x, y and outward normal in the scene.
-Mat3 panel_rotation(const Vec3& up, const Vec3& outward) {
+Mat3 panel_rotation(const Vec3& up, const Vec3& outward)
+{
     Mat3 rotation;
     rotation << up.cross(outward), up, outward;
     return rotation;
@@ -59,7 +69,8 @@ Mat3 panel_rotation(const Vec3& up, const Vec3& outward) {
 
 }  // namespace
 
-double edge_length(const PatternPanel& panel, int edge) {
+double edge_length(const PatternPanel& panel, int edge)
+{
     const PatternEdge& e = panel.edges[edge];
     const Vec2 a = panel.vertices[e.start], d = panel.vertices[e.end];
     Vec2 b = a + (d - a) / 3, c = d - (d - a) / 3;
@@ -83,7 +94,8 @@ double edge_length(const PatternPanel& panel, int edge) {
 }
 
 PatternPanel draft_bodice(BodiceSide side, const BodiceStyle& style, const MannequinMeasures& measures,
-                          const MannequinLandmarks& landmarks) {
+                          const MannequinLandmarks& landmarks)
+{
     const bool front = side == BodiceSide::front;
     const Vec3 body_neck = landmarks.neck_side[0], body_shoulder = landmarks.shoulder_point[0];
     // Slightly flatter than the shoulder, so that the cloth rests on its neck end.
@@ -107,8 +119,8 @@ PatternPanel draft_bodice(BodiceSide side, const BodiceStyle& style, const Manne
 
     PatternPanel panel;
     panel.name = front ? "front" : "back";
-    panel.vertices = {mirrored(hem_corner), hem_corner,     underarm,           shoulder,
-                      neck,                 mirrored(neck), mirrored(shoulder), mirrored(underarm)};
+    panel.vertices = {mirrored(hem_corner), hem_corner,         underarm,          shoulder, neck,
+                      mirrored(neck),       mirrored(shoulder), mirrored(underarm)};
     panel.edges = {straight(0, 1),
                    quadratic(1, 2, waist),
                    cubic(2, 3, low_control, high_control),
@@ -124,7 +136,8 @@ PatternPanel draft_bodice(BodiceSide side, const BodiceStyle& style, const Manne
 }
 
 PatternPanel draft_sleeve(int hand, const SleeveStyle& style, double front_armhole, double back_armhole,
-                          const MannequinLandmarks& landmarks) {
+                          const MannequinLandmarks& landmarks)
+{
     const double girth = 2 * std::numbers::pi * landmarks.upper_arm_radius + style.ease;
     const double height = bisect(0.02, 0.95 * std::min(front_armhole, back_armhole), [&](double trial) {
         return girth - cap_width(front_armhole, trial) - cap_width(back_armhole, trial);
@@ -136,8 +149,8 @@ PatternPanel draft_sleeve(int hand, const SleeveStyle& style, double front_armho
 
     PatternPanel panel;
     panel.name = hand == 0 ? "left_sleeve" : "right_sleeve";
-    panel.vertices = {{style.taper - left, -style.length}, {right - style.taper, -style.length}, {right, 0},
-                      {0, height}, {-left, 0}};
+    panel.vertices = {
+        {style.taper - left, -style.length}, {right - style.taper, -style.length}, {right, 0}, {0, height}, {-left, 0}};
     panel.edges = {straight(0, 1), straight(1, 2), cubic(2, 3, right_controls[0], right_controls[1]),
                    cubic(3, 4, mirrored(left_controls[1]), mirrored(left_controls[0])), straight(4, 0)};
 

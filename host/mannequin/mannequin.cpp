@@ -15,7 +15,7 @@ namespace {
 
 struct Bound {
     const char* name;
-    double MannequinMeasures::* member;
+    double MannequinMeasures::*member;
     double low, high;
 };
 
@@ -28,7 +28,8 @@ constexpr std::array<Bound, 8> bounds{{{"stature", &MannequinMeasures::stature, 
                                        {"arm_length", &MannequinMeasures::arm_length, 0.45, 0.75},
                                        {"arm_angle", &MannequinMeasures::arm_angle, 0.0, 80.0}}};
 
-void check(const MannequinMeasures& measures, const InputPlace& body) {
+void check(const MannequinMeasures& measures, const InputPlace& body)
+{
     for (const Bound& bound : bounds) {
         const double value = measures.*bound.member;
         if (value >= bound.low && value <= bound.high) continue;
@@ -44,7 +45,8 @@ constexpr std::array<const char*, 7> part_names{"head",      "neck",     "torso"
                                                 "right_arm", "left_leg", "right_leg"};
 
 /// Sorts the faces by the part at their centre and names the runs.
-void name_parts(TriangleMesh& mesh, const MannequinShape& shape) {
+void name_parts(TriangleMesh& mesh, const MannequinShape& shape)
+{
     std::array<std::vector<Face>, part_names.size()> groups;
     for (const Face& face : mesh.faces) {
         const Vec3 centre = (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]]) / 3;
@@ -59,7 +61,8 @@ void name_parts(TriangleMesh& mesh, const MannequinShape& shape) {
 
 }  // namespace
 
-MannequinMeasures mannequin_size(const std::string& size) {
+MannequinMeasures mannequin_size(const std::string& size)
+{
     if (size == "S") return {1.66, 0.84, 0.66, 0.93, 0.385, 0.335, 0.580, 45};
     if (size == "M") return {};
     if (size == "L") return {1.74, 1.00, 0.83, 1.08, 0.415, 0.370, 0.610, 45};
@@ -68,28 +71,31 @@ MannequinMeasures mannequin_size(const std::string& size) {
     throw InputError(place, fmt::format("\"{}\"", size), "S, M or L");
 }
 
-TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace& body) {
+TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace& body)
+{
     check(measures, body);
     const MannequinShape shape(measures);
     const MannequinLandmarks at = shape.landmarks();
     const double margin = 0.08, hand = 0.22 * measures.stature / 1.70;
     const Vec3 finger = at.wrist[0] + hand * at.arm_direction[0];
     const double side = std::max(finger.x(), 0.5 * measures.hips / 2) + margin;
-    TriangleMesh mesh = surface_net(shape, {-side, at.front - 2 * margin, -0.03},
-                                    {side, at.back + margin, measures.stature + 0.03});
+    TriangleMesh mesh =
+        surface_net(shape, {-side, at.front - 2 * margin, -0.03}, {side, at.back + margin, measures.stature + 0.03});
     name_parts(mesh, shape);
     return mesh;
 }
 
 std::vector<Vec3> mannequin_with_arms(const TriangleMesh& mannequin, const MannequinMeasures& measures,
-                                      double arm_angle) {
+                                      double arm_angle)
+{
     const MannequinShape shape(measures);
     std::vector<Vec3> vertices = mannequin.vertices;
     for (Vec3& x : vertices) x = shape.with_arms_at(arm_angle, x);
     return vertices;
 }
 
-MannequinLandmarks mannequin_landmarks(const MannequinMeasures& measures) {
+MannequinLandmarks mannequin_landmarks(const MannequinMeasures& measures)
+{
     check(measures, {"", 0, 0, "body"});
     return MannequinShape(measures).landmarks();
 }

@@ -10,13 +10,13 @@ namespace selvage {
 /// Body measures of the built-in mannequin. Lengths in [m].
 struct MannequinMeasures {
     double stature = 1.70;
-    double bust = 0.92;             ///< Tape girth at the bust line.
+    double bust = 0.92;  ///< Tape girth at the bust line.
     double waist = 0.74;
     double hips = 1.00;
-    double shoulder_width = 0.40;   ///< Between the two shoulder points, straight across.
-    double neck = 0.35;             ///< Girth at half the neck's height.
-    double arm_length = 0.595;      ///< Shoulder point to wrist, along the arm in the A-pose.
-    double arm_angle = 45;          ///< Degrees below the horizontal: 0 is a T-pose, 45 an A-pose; 0 to 80.
+    double shoulder_width = 0.40;  ///< Between the two shoulder points, straight across.
+    double neck = 0.35;            ///< Girth at half the neck's height.
+    double arm_length = 0.595;     ///< Shoulder point to wrist, along the arm in the A-pose.
+    double arm_angle = 45;         ///< Degrees below the horizontal: 0 is a T-pose, 45 an A-pose; 0 to 80.
 };
 
 /// Where things are on the mannequin, for placing garments. [m]; pairs are {left, right} of the wearer.
@@ -48,7 +48,8 @@ TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace&
 
 /// The vertices of a mannequin that make_mannequin() made from these measures, its arms turned about the shoulder
 /// joints: a pose with the same faces. @param arm_angle  below the horizontal [degrees]
-std::vector<Vec3> mannequin_with_arms(const TriangleMesh& mannequin, const MannequinMeasures& measures, double arm_angle);
+std::vector<Vec3> mannequin_with_arms(const TriangleMesh& mannequin, const MannequinMeasures& measures,
+                                      double arm_angle);
 
 /// The landmarks of the mannequin that make_mannequin() makes from the same measures.
 /// @throws InputError as make_mannequin()

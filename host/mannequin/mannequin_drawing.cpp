@@ -16,16 +16,17 @@ struct TorsoStation {
 };
 
 const std::vector<TorsoStation> torso_table{
-    {{0.795, 0, 0.016, 0.095, 0.054, 0.072}, 0, 0, 1},      {{0.835, 0, 0.012, 0.150, 0.086, 0.094}, 0, 0, 1},
-    {{0.875, 0, 0.009, 0.170, 0.103, 0.105}, 0, 0, 1},      {{0.930, 0, 0.006, 0.166, 0.109, 0.102}, 0, 0.2, 0.8},
-    {{1.000, 0, 0.003, 0.142, 0.108, 0.091}, 0, 0.7, 0.3},  {{1.065, 0, 0.002, 0.121, 0.100, 0.089}, 0, 1, 0},
-    {{1.120, 0, 0.006, 0.127, 0.103, 0.098}, 0.3, 0.7, 0},  {{1.175, 0, 0.012, 0.140, 0.109, 0.108}, 0.8, 0.2, 0},
-    {{1.215, 0, 0.016, 0.147, 0.110, 0.113}, 1, 0, 0},      {{1.270, 0, 0.020, 0.152, 0.101, 0.113}, 1, 0, 0},
-    {{1.320, 0, 0.024, 0.147, 0.083, 0.104}, 1, 0, 0},      {{1.360, 0, 0.026, 0.125, 0.069, 0.086}, 1, 0, 0}};
+    {{0.795, 0, 0.016, 0.095, 0.054, 0.072}, 0, 0, 1},     {{0.835, 0, 0.012, 0.150, 0.086, 0.094}, 0, 0, 1},
+    {{0.875, 0, 0.009, 0.170, 0.103, 0.105}, 0, 0, 1},     {{0.930, 0, 0.006, 0.166, 0.109, 0.102}, 0, 0.2, 0.8},
+    {{1.000, 0, 0.003, 0.142, 0.108, 0.091}, 0, 0.7, 0.3}, {{1.065, 0, 0.002, 0.121, 0.100, 0.089}, 0, 1, 0},
+    {{1.120, 0, 0.006, 0.127, 0.103, 0.098}, 0.3, 0.7, 0}, {{1.175, 0, 0.012, 0.140, 0.109, 0.108}, 0.8, 0.2, 0},
+    {{1.215, 0, 0.016, 0.147, 0.110, 0.113}, 1, 0, 0},     {{1.270, 0, 0.020, 0.152, 0.101, 0.113}, 1, 0, 0},
+    {{1.320, 0, 0.024, 0.147, 0.083, 0.104}, 1, 0, 0},     {{1.360, 0, 0.026, 0.125, 0.069, 0.086}, 1, 0, 0}};
 
-const std::vector<TubeStation> neck_table{{1.340, 0, 0.036, 0.074, 0.062, 0.066}, {1.380, 0, 0.026, 0.064, 0.060, 0.060},
-                                          {1.415, 0, 0.017, 0.056, 0.058, 0.056}, {1.452, 0, 0.009, 0.0535, 0.0555, 0.0555},
-                                          {1.495, 0, 0.002, 0.054, 0.056, 0.056}, {1.540, 0, 0.000, 0.056, 0.057, 0.058}};
+const std::vector<TubeStation> neck_table{
+    {1.340, 0, 0.036, 0.074, 0.062, 0.066}, {1.380, 0, 0.026, 0.064, 0.060, 0.060},
+    {1.415, 0, 0.017, 0.056, 0.058, 0.056}, {1.452, 0, 0.009, 0.0535, 0.0555, 0.0555},
+    {1.495, 0, 0.002, 0.054, 0.056, 0.056}, {1.540, 0, 0.000, 0.056, 0.057, 0.058}};
 
 /// t in parts of the arm's length up to the wrist; u points backwards, v outwards.
 const std::vector<TubeStation> arm_table{
@@ -47,9 +48,9 @@ const std::vector<TubeStation> thumb_table{{0.000, 0, 0, 0.0150, 0.0145, 0.0145}
 
 /// t is the height; sections below the knee scale with the stature, above with the hips.
 const std::vector<TubeStation> leg_table{
-    {0.030, 0.110, 0.024, 0.0330, 0.0400, 0.0360}, {0.085, 0.110, 0.024, 0.0335, 0.0370, 0.0390},
-    {0.160, 0.109, 0.020, 0.0385, 0.0390, 0.0450}, {0.260, 0.107, 0.012, 0.0510, 0.0460, 0.0630},
-    {0.335, 0.106, 0.008, 0.0560, 0.0490, 0.0680}, {0.420, 0.103, 0.003, 0.0510, 0.0520, 0.0540},
+    {0.030, 0.110, 0.024, 0.0330, 0.0400, 0.0360},  {0.085, 0.110, 0.024, 0.0335, 0.0370, 0.0390},
+    {0.160, 0.109, 0.020, 0.0385, 0.0390, 0.0450},  {0.260, 0.107, 0.012, 0.0510, 0.0460, 0.0630},
+    {0.335, 0.106, 0.008, 0.0560, 0.0490, 0.0680},  {0.420, 0.103, 0.003, 0.0510, 0.0520, 0.0540},
     {0.470, 0.102, -0.002, 0.0535, 0.0580, 0.0520}, {0.530, 0.101, -0.003, 0.0600, 0.0650, 0.0600},
     {0.620, 0.098, -0.002, 0.0720, 0.0780, 0.0720}, {0.710, 0.0955, 0.001, 0.0820, 0.0860, 0.0840},
     {0.780, 0.0925, 0.005, 0.0845, 0.0870, 0.0900}, {0.850, 0.0880, 0.008, 0.0790, 0.0760, 0.0810}};
@@ -60,7 +61,8 @@ const std::vector<TubeStation> foot_table{
     {0.070, 0.000, 0.018, 0.0370, 0.05, 0.051},  {0.120, 0.003, 0.018, 0.0440, 0.05, 0.032},
     {0.160, 0.001, 0.018, 0.0425, 0.05, 0.020},  {0.185, -0.003, 0.018, 0.0350, 0.05, 0.014}};
 
-TubeStation scaled(TubeStation s, double along, double across, double offset) {
+TubeStation scaled(TubeStation s, double along, double across, double offset)
+{
     s.t *= along;
     s.centre_u *= offset;
     s.centre_v *= offset;
@@ -72,7 +74,8 @@ TubeStation scaled(TubeStation s, double along, double across, double offset) {
 
 }  // namespace
 
-void MannequinShape::draw() {
+void MannequinShape::draw()
+{
     scale_ = measures_.stature / drawn.stature;
     // Arms grow more slowly than the bust.
     arm_scale_ = std::pow(measures_.bust / drawn.bust, 0.8);
@@ -83,7 +86,8 @@ void MannequinShape::draw() {
     draw_leg();
 }
 
-void MannequinShape::draw_torso() {
+void MannequinShape::draw_torso()
+{
     std::vector<TubeStation> stations;
     for (const auto& [section, bust, waist, hips] : torso_table) {
         const double across = bust * factors_.bust * measures_.bust / drawn.bust +
@@ -94,14 +98,16 @@ void MannequinShape::draw_torso() {
     torso_ = SectionTube(stations, 0.035 * scale_, 0.060 * scale_);
 }
 
-void MannequinShape::draw_head() {
+void MannequinShape::draw_head()
+{
     std::vector<TubeStation> stations;
     for (const TubeStation& station : neck_table)
         stations.push_back(scaled(station, scale_, factors_.neck * measures_.neck / drawn.neck, scale_));
     neck_ = SectionTube(stations, 0.04 * scale_, 0.03 * scale_);
 }
 
-void MannequinShape::draw_arm() {
+void MannequinShape::draw_arm()
+{
     const double length = measures_.arm_length;
     std::vector<TubeStation> stations;
     for (const TubeStation& station : arm_table) stations.push_back(scaled(station, length, arm_scale_, scale_));
@@ -123,7 +129,8 @@ void MannequinShape::draw_arm() {
     thumb_ = SectionTube(stations, 0.012 * scale_, 0.010 * scale_);
 }
 
-void MannequinShape::draw_leg() {
+void MannequinShape::draw_leg()
+{
     const double hips = factors_.hips * measures_.hips / drawn.hips;
     std::vector<TubeStation> stations;
     for (const TubeStation& station : leg_table) {

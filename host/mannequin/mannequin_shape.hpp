@@ -13,14 +13,14 @@ public:
     /// Calibrates the shape so that its girths and its shoulder width are those of `measures`.
     explicit MannequinShape(const MannequinMeasures& measures);
 
-    double operator()(const Vec3& point) const;   ///< Signed distance [m], first order; negative inside.
-    double trunk(const Vec3& point) const;        ///< The same without arms and hands.
+    double operator()(const Vec3& point) const;  ///< Signed distance [m], first order; negative inside.
+    double trunk(const Vec3& point) const;       ///< The same without arms and hands.
 
-    /// Where a point of the surface goes when the arms turn about the shoulder joints: arms whole, the trunk not at all,
-    /// and smoothly in between. @param arm_angle  new angle below the horizontal [degrees]
+    /// Where a point of the surface goes when the arms turn about the shoulder joints: arms whole, the trunk not at
+    /// all, and smoothly in between. @param arm_angle  new angle below the horizontal [degrees]
     Vec3 with_arms_at(double arm_angle, const Vec3& point) const;
 
-    BodyPart part(const Vec3& point) const;       ///< Part to which a point on the surface belongs.
+    BodyPart part(const Vec3& point) const;  ///< Part to which a point on the surface belongs.
 
     /// Tape girth [m] of the trunk at a height [m]: the perimeter of the section's convex hull.
     double girth(double height) const;
@@ -35,7 +35,7 @@ private:
     /// Factors on the drawn sections, found by calibrate().
     struct Factors {
         double bust = 1, waist = 1, hips = 1, neck = 1;
-        double joint_x = 0;   ///< Of the shoulder joint [m].
+        double joint_x = 0;  ///< Of the shoulder joint [m].
     };
 
     void draw();
@@ -49,13 +49,13 @@ private:
     double head(const Vec3& point) const;
     double leg(const Vec3& point) const;
     double arm(const Vec3& point) const;
-    Vec3 arm_frame(const Vec3& point) const;   ///< (along, front-back, outer) coordinates of the arm at x >= 0.
+    Vec3 arm_frame(const Vec3& point) const;  ///< (along, front-back, outer) coordinates of the arm at x >= 0.
 
     MannequinMeasures measures_;
     Factors factors_;
-    double scale_ = 1;         ///< Stature over that of the drawing.
-    double arm_scale_ = 1;     ///< Girth of the arms over that of the drawing.
-    double hand_offset_ = 0;   ///< Of the hand from the arm's axis, outwards.
+    double scale_ = 1;        ///< Stature over that of the drawing.
+    double arm_scale_ = 1;    ///< Girth of the arms over that of the drawing.
+    double hand_offset_ = 0;  ///< Of the hand from the arm's axis, outwards.
     Vec3 joint_ = Vec3::Zero(), along_ = Vec3::Zero(), outer_ = Vec3::Zero();
     SectionTube torso_, neck_, arm_, thumb_, leg_, foot_;
 };

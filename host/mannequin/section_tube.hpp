@@ -5,11 +5,11 @@ namespace selvage {
 
 /// A cross-section of a SectionTube: an ellipse whose two halves may differ in depth. All lengths in [m].
 struct TubeStation {
-    double t = 0;                        ///< Place along the axis.
-    double centre_u = 0, centre_v = 0;   ///< Offset of the section's centre from the axis.
+    double t = 0;                       ///< Place along the axis.
+    double centre_u = 0, centre_v = 0;  ///< Offset of the section's centre from the axis.
     double radius_u = 0;
-    double radius_low = 0;               ///< Radius towards -v.
-    double radius_high = 0;              ///< Radius towards +v.
+    double radius_low = 0;   ///< Radius towards -v.
+    double radius_high = 0;  ///< Radius towards +v.
 };
 
 /// A limb as an implicit shape: elliptical sections, interpolated along the axis by monotone cubics
@@ -30,7 +30,7 @@ public:
     TubeStation section(double t) const;
 
 private:
-    std::vector<TubeStation> table_;   ///< Uniform in t.
+    std::vector<TubeStation> table_;  ///< Uniform in t.
     double first_ = 0, last_ = 0, per_length_ = 0;
     double cap_first_ = 0, cap_last_ = 0;
 };

@@ -19,11 +19,11 @@ TriangleMesh icosahedron()
 {
     const double g = std::numbers::phi;
     TriangleMesh mesh;
-    mesh.vertices = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                     {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    mesh.faces = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                  {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    mesh.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                     {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    mesh.faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                  {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     for (Vec3& vertex : mesh.vertices) vertex.normalize();
     return mesh;
 }
@@ -77,7 +77,7 @@ void add_face(TriangleMesh& mesh, int a, int b, int c, bool reversed)
 void add_disc(TriangleMesh& mesh, const Vec3& center, double radius, int ring, int count, bool upward)
 {
     while (count > 8) {
-        radius -= 1.2 * 2 * pi * radius / count;      // rings about as far apart as their vertices
+        radius -= 1.2 * 2 * pi * radius / count;  // rings about as far apart as their vertices
         const int half = count / 2, inner = add_ring(mesh, center, radius, half);
         for (int k = 0; k < half; ++k) {
             const int a = ring + 2 * k, b = a + 1, c = ring + (2 * k + 2) % count;
@@ -161,7 +161,7 @@ TriangleMesh cylinder_mesh(const Vec3& center, double radius, double height, int
 
 TriangleMesh cone_mesh(const Vec3& center, double radius, double height, int segment_count)
 {
-    constexpr int rows = 16;     // their heights shrink towards the tip as the rings' edges do
+    constexpr int rows = 16;  // their heights shrink towards the tip as the rings' edges do
     TriangleMesh mesh;
     const int base = add_ring(mesh, center, radius, segment_count);
     int lower = base;
@@ -204,8 +204,8 @@ double signed_volume(const TriangleMesh& mesh)
     if (mesh.vertices.empty()) return 0;
     const Vec3 origin = mesh.vertices.front();
     for (const Face& f : mesh.faces)
-        six_volumes += (mesh.vertices[f[0]] - origin)
-                           .dot((mesh.vertices[f[1]] - origin).cross(mesh.vertices[f[2]] - origin));
+        six_volumes +=
+            (mesh.vertices[f[0]] - origin).dot((mesh.vertices[f[1]] - origin).cross(mesh.vertices[f[2]] - origin));
     return six_volumes / 6;
 }
 

@@ -8,9 +8,9 @@ enum class TriangleFeature { face, edge, corner };
 
 struct ClosestOnTriangle {
     Vec3 point;
-    Vec3 weights;             ///< Barycentric coordinates of `point`.
+    Vec3 weights;  ///< Barycentric coordinates of `point`.
     TriangleFeature feature = TriangleFeature::face;
-    int local = 0;            ///< The corner, or the corner at which the edge starts (counter-clockwise).
+    int local = 0;  ///< The corner, or the corner at which the edge starts (counter-clockwise).
     double squared_distance = 0;
 };
 

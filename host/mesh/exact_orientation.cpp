@@ -9,8 +9,8 @@ namespace {
 // A number as a sum of doubles that do not overlap, the smallest first.
 using Expansion = std::vector<double>;
 
-// Adds one double: every addition's error stays behind as a smaller part. Not inlined, since a product that is fused with
-// the addition would no longer be the rounded one whose error is known.
+// Adds one double: every addition's error stays behind as a smaller part. Not inlined, since a product that is fused
+// with the addition would no longer be the rounded one whose error is known.
 [[gnu::noinline]] void add(Expansion& sum, double value)
 {
     std::size_t kept = 0;

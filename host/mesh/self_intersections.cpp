@@ -46,7 +46,7 @@ bool plane_between(const TriangleTree& a, int f, const TriangleTree& b, int g, i
         if (a.face(f)[k] != shared) least = std::min(least, across.dot(p[k] - middle));
         if (b.face(g)[k] != shared) most = std::max(most, across.dot(q[k] - middle));
     }
-    const double margin = 1e-13 * size * across.norm();   // hundreds of times the rounding of these sums
+    const double margin = 1e-13 * size * across.norm();  // hundreds of times the rounding of these sums
     if (shared < 0) return least > most + margin;
     const double at = across.dot(a.vertex(shared) - middle);
     return least > at + margin && most < at - margin;

@@ -19,15 +19,16 @@ std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertic
 class IntersectionTarget {
 public:
     explicit IntersectionTarget(TriangleMesh mesh);
-    IntersectionTarget(const IntersectionTarget&) = delete;   // its tree refers to its mesh
+    IntersectionTarget(const IntersectionTarget&) = delete;  // its tree refers to its mesh
 
     /// As mutual_intersections.
-    std::vector<IntersectingPair> intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces) const;
+    std::vector<IntersectingPair> intersections(const std::vector<Vec3>& vertices,
+                                                const std::vector<Face>& faces) const;
 
 private:
     TriangleMesh mesh_;
-    TriangleTree tree_;            // of mesh_
-    std::vector<char> has_area_;   // per face
+    TriangleTree tree_;           // of mesh_
+    std::vector<char> has_area_;  // per face
 };
 
 /// Finds every pair of a triangle of one mesh and a triangle of another that intersect, by exact predicates.

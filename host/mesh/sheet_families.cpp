@@ -98,7 +98,8 @@ SheetMesh cross_mesh(double width, double height, int columns, int rows)
     }
     for (int j = 0; j + 1 < rows; ++j)
         for (int i = 0; i + 1 < columns; ++i) {
-            const int a = j * (2 * columns - 1) + i, b = a + 1, d = a + 2 * columns - 1, c = d + 1, middle = a + columns;
+            const int a = j * (2 * columns - 1) + i, b = a + 1, d = a + 2 * columns - 1, c = d + 1,
+                      middle = a + columns;
             for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, d}, {d, a}})
                 mesh.faces.push_back({from, to, middle});
         }

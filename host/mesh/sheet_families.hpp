@@ -8,8 +8,8 @@ namespace selvage {
 
 /// The triangles of a plain sheet around the origin.
 struct SheetMesh {
-    std::vector<Vec2> points;   ///< (weft, warp) [m].
-    std::vector<Face> faces;    ///< Counter-clockwise.
+    std::vector<Vec2> points;  ///< (weft, warp) [m].
+    std::vector<Face> faces;   ///< Counter-clockwise.
 };
 
 /// The ways in which a rectangle can be cut into triangles.

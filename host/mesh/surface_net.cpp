@@ -29,11 +29,10 @@ struct Grid {
 };
 
 /// Offset in samples from a cell's lowest corner to its corner c (bits of c: x, y, z).
-int corner_offset(const Grid& grid, int corner) {
-    return grid.index(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
-}
+int corner_offset(const Grid& grid, int corner) { return grid.index(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1); }
 
-void fill_block(Grid& grid, const ScalarField& field, const std::array<int, 3>& first, double steepness) {
+void fill_block(Grid& grid, const ScalarField& field, const std::array<int, 3>& first, double steepness)
+{
     std::array<int, 3> last;
     for (int axis = 0; axis < 3; ++axis) last[axis] = std::min(first[axis] + block_size, grid.count[axis]);
     const double half = 0.5 * (block_size - 1);
@@ -45,7 +44,8 @@ void fill_block(Grid& grid, const ScalarField& field, const std::array<int, 3>& 
                 grid.value[grid.index(i, j, k)] = float(far ? centre : field(grid.point(i, j, k)));
 }
 
-Grid sample(const ScalarField& field, const Vec3& low, const Vec3& high, const SurfaceNetOptions& options) {
+Grid sample(const ScalarField& field, const Vec3& low, const Vec3& high, const SurfaceNetOptions& options)
+{
     Grid grid;
     grid.spacing = options.spacing;
     std::array<int, 3> blocks;
@@ -62,7 +62,8 @@ Grid sample(const ScalarField& field, const Vec3& low, const Vec3& high, const S
     return grid;
 }
 
-int inside_mask(const Grid& grid, int cell, const std::array<int, 8>& offset) {
+int inside_mask(const Grid& grid, int cell, const std::array<int, 8>& offset)
+{
     int mask = 0;
     for (int corner = 0; corner < 8; ++corner) mask |= int(grid.value[cell + offset[corner]] < 0) << corner;
     return mask;
@@ -70,7 +71,8 @@ int inside_mask(const Grid& grid, int cell, const std::array<int, 8>& offset) {
 
 /// Bits of the outside corners that make a cell ambiguous: those of a face whose inside corners are
 /// diagonal, or all of them when exactly two opposite corners of the cell differ from the rest.
-int ambiguous_corners(int mask) {
+int ambiguous_corners(int mask)
+{
     static constexpr std::array<std::array<int, 4>, 6> faces{
         {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
     int flip = 0;
@@ -87,14 +89,16 @@ int ambiguous_corners(int mask) {
 }
 
 template <class Visit>
-void for_each_cell(const Grid& grid, Visit visit) {
+void for_each_cell(const Grid& grid, Visit visit)
+{
     for (int k = 0; k + 1 < grid.count[2]; ++k)
         for (int j = 0; j + 1 < grid.count[1]; ++j)
             for (int i = 0; i + 1 < grid.count[0]; ++i) visit(i, j, k);
 }
 
 /// Moves outside samples in until no cell is ambiguous. Only grows the shape, hence ends.
-void make_well_composed(Grid& grid, const std::array<int, 8>& offset) {
+void make_well_composed(Grid& grid, const std::array<int, 8>& offset)
+{
     const auto value_just_inside = float(-1e-6);
     for (bool changed = true; changed;) {
         changed = false;
@@ -111,7 +115,8 @@ void make_well_composed(Grid& grid, const std::array<int, 8>& offset) {
 }
 
 /// Mean of the points where the surface crosses the cell's edges.
-Vec3 cell_vertex(const Grid& grid, int i, int j, int k, int mask, const std::array<int, 8>& offset) {
+Vec3 cell_vertex(const Grid& grid, int i, int j, int k, int mask, const std::array<int, 8>& offset)
+{
     Vec3 sum = Vec3::Zero();
     int crossings = 0;
     const int cell = grid.index(i, j, k);
@@ -129,7 +134,8 @@ Vec3 cell_vertex(const Grid& grid, int i, int j, int k, int mask, const std::arr
 }
 
 /// One quad per crossed grid edge, turned so that it is counter-clockwise seen from outside.
-std::vector<Quad> net_quads(const Grid& grid, const std::vector<int>& vertex_of_cell) {
+std::vector<Quad> net_quads(const Grid& grid, const std::vector<int>& vertex_of_cell)
+{
     std::vector<Quad> quads;
     for_each_cell(grid, [&](int i, int j, int k) {
         const std::array<int, 3> at{i, j, k};
@@ -159,7 +165,8 @@ struct Neighbours {
     std::vector<int> offset, vertex;
 };
 
-Neighbours find_neighbours(const std::vector<Quad>& quads, int vertex_count) {
+Neighbours find_neighbours(const std::vector<Quad>& quads, int vertex_count)
+{
     Neighbours rows;
     rows.offset.assign(vertex_count + 1, 0);
     for (const Quad& quad : quads)
@@ -173,7 +180,8 @@ Neighbours find_neighbours(const std::vector<Quad>& quads, int vertex_count) {
 }
 
 /// One Newton step along the gradient, at most half a cell long; value and gradient from four samples.
-Vec3 project(const ScalarField& field, const Vec3& point, double spacing) {
+Vec3 project(const ScalarField& field, const Vec3& point, double spacing)
+{
     static const std::array<Vec3, 4> taps{Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3(-1, 1, -1), Vec3(1, 1, 1)};
     const double reach = 0.02 * spacing;
     double value = 0;
@@ -190,7 +198,8 @@ Vec3 project(const ScalarField& field, const Vec3& point, double spacing) {
 }
 
 void relax(std::vector<Vec3>& vertices, const Neighbours& rows, const ScalarField& field,
-           const SurfaceNetOptions& options) {
+           const SurfaceNetOptions& options)
+{
     std::vector<Vec3> moved(vertices.size());
     const int final_projections = 2;
     for (int round = 0; round < options.smoothing_rounds + final_projections; ++round) {
@@ -198,7 +207,8 @@ void relax(std::vector<Vec3>& vertices, const Neighbours& rows, const ScalarFiel
         tbb::parallel_for(tbb::blocked_range<int>(0, int(vertices.size()), 256), [&](const auto& range) {
             for (int vertex = range.begin(); vertex < range.end(); ++vertex) {
                 Vec3 mean = Vec3::Zero();
-                for (int at = rows.offset[vertex]; at < rows.offset[vertex + 1]; ++at) mean += vertices[rows.vertex[at]];
+                for (int at = rows.offset[vertex]; at < rows.offset[vertex + 1]; ++at)
+                    mean += vertices[rows.vertex[at]];
                 mean /= rows.offset[vertex + 1] - rows.offset[vertex];
                 moved[vertex] = project(field, (1 - weight) * vertices[vertex] + weight * mean, options.spacing);
             }
@@ -208,13 +218,15 @@ void relax(std::vector<Vec3>& vertices, const Neighbours& rows, const ScalarFiel
 }
 
 /// Largest cosine over the corners of a triangle: the smaller, the better its smallest angle.
-double sharpest_cosine(const Vec3& a, const Vec3& b, const Vec3& c) {
+double sharpest_cosine(const Vec3& a, const Vec3& b, const Vec3& c)
+{
     const Vec3 ab = (b - a).normalized(), bc = (c - b).normalized(), ca = (a - c).normalized();
     return std::max({-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)});
 }
 
 /// Cuts every quad along the diagonal that gives the larger smallest angle.
-std::vector<Face> split_quads(const std::vector<Quad>& quads, const std::vector<Vec3>& x) {
+std::vector<Face> split_quads(const std::vector<Quad>& quads, const std::vector<Vec3>& x)
+{
     std::vector<Face> faces;
     faces.reserve(2 * quads.size());
     for (const auto& [a, b, c, d] : quads) {
@@ -233,8 +245,8 @@ std::vector<Face> split_quads(const std::vector<Quad>& quads, const std::vector<
 
 }  // namespace
 
-TriangleMesh surface_net(const ScalarField& field, const Vec3& low, const Vec3& high,
-                         const SurfaceNetOptions& options) {
+TriangleMesh surface_net(const ScalarField& field, const Vec3& low, const Vec3& high, const SurfaceNetOptions& options)
+{
     Grid grid = sample(field, low, high, options);
     std::array<int, 8> offset;
     for (int corner = 0; corner < 8; ++corner) offset[corner] = corner_offset(grid, corner);

@@ -9,9 +9,9 @@ namespace selvage {
 using ScalarField = std::function<double(const Vec3&)>;
 
 struct SurfaceNetOptions {
-    double spacing = 0.011;     ///< Grid spacing [m]; triangle edges come out about as long.
-    double steepness = 1.4;     ///< Upper bound of |grad field|: blocks further than this from the surface are skipped.
-    int smoothing_rounds = 8;   ///< Rounds of tangential relaxation, each followed by a projection.
+    double spacing = 0.011;    ///< Grid spacing [m]; triangle edges come out about as long.
+    double steepness = 1.4;    ///< Upper bound of |grad field|: blocks further than this from the surface are skipped.
+    int smoothing_rounds = 8;  ///< Rounds of tangential relaxation, each followed by a projection.
 };
 
 /// Polygonises the zero set of `field` inside a box: a surface net (one vertex per cell that the surface

@@ -21,9 +21,10 @@ bool segments_meet(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, c
 {
     const int pa = exact_orientation(p, q, a, eye), pb = exact_orientation(p, q, b, eye);
     const int ap = exact_orientation(a, b, p, eye), aq = exact_orientation(a, b, q, eye);
-    if (pa == 0 && pb == 0 && ap == 0 && aq == 0) {   // on one line: their extents decide
+    if (pa == 0 && pb == 0 && ap == 0 && aq == 0) {  // on one line: their extents decide
         for (int c = 0; c < 3; ++c)
-            if (std::max(p[c], q[c]) < std::min(a[c], b[c]) || std::max(a[c], b[c]) < std::min(p[c], q[c])) return false;
+            if (std::max(p[c], q[c]) < std::min(a[c], b[c]) || std::max(a[c], b[c]) < std::min(p[c], q[c]))
+                return false;
         return true;
     }
     return pa * pb <= 0 && ap * aq <= 0;

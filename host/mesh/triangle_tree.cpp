@@ -13,8 +13,8 @@ namespace selvage {
 namespace {
 
 constexpr int leaf_size = 4;
-constexpr int serial_leaves = 512;         // subtrees up to this are built by one thread
-constexpr std::size_t frontier = 256;      // pieces that a search is divided into
+constexpr int serial_leaves = 512;     // subtrees up to this are built by one thread
+constexpr std::size_t frontier = 256;  // pieces that a search is divided into
 
 }  // namespace
 
@@ -68,16 +68,19 @@ void TriangleTree::build(int node, int first, int leaves)
         for (int k = first + 1; k < first + n.count; ++k) n.box.add(boxes_[k]);
         return;
     }
-    const auto middle = [this](int f) -> Vec3 { return vertices_[faces_[f][0]] + vertices_[faces_[f][1]] + vertices_[faces_[f][2]]; };
+    const auto middle = [this](int f) -> Vec3 {
+        return vertices_[faces_[f][0]] + vertices_[faces_[f][1]] + vertices_[faces_[f][2]];
+    };
     Eigen::AlignedBox3d span;
     for (int k = first; k < first + n.count; ++k) span.extend(middle(order_[k]));
     int axis = 0;
     span.sizes().maxCoeff(&axis);
     const int left = leaves / 2, split = first + left * leaf_size;
-    std::nth_element(order_.begin() + first, order_.begin() + split, order_.begin() + first + n.count, [&](int f, int g) {
-        const double a = middle(f)[axis], b = middle(g)[axis];
-        return a < b || (a == b && f < g);
-    });
+    std::nth_element(order_.begin() + first, order_.begin() + split, order_.begin() + first + n.count,
+                     [&](int f, int g) {
+                         const double a = middle(f)[axis], b = middle(g)[axis];
+                         return a < b || (a == b && f < g);
+                     });
     n.right = node + 2 * left;
     const auto build_left = [&] { build(node + 1, first, left); };
     const auto build_right = [&] { build(n.right, split, leaves - left); };
@@ -141,13 +144,17 @@ struct TriangleTree::Search {
                 visit(pair, open, found[p]);
             }
         });
-        for (const std::vector<TrianglePair>& of_piece : found) pairs.insert(pairs.end(), of_piece.begin(), of_piece.end());
+        for (const std::vector<TrianglePair>& of_piece : found)
+            pairs.insert(pairs.end(), of_piece.begin(), of_piece.end());
         std::sort(pairs.begin(), pairs.end());
         return pairs;
     }
 };
 
-std::vector<TrianglePair> TriangleTree::own_pairs(const Meet& meet) const { return Search{*this, *this, meet, true}.all(); }
+std::vector<TrianglePair> TriangleTree::own_pairs(const Meet& meet) const
+{
+    return Search{*this, *this, meet, true}.all();
+}
 
 std::vector<TrianglePair> TriangleTree::pairs_with(const TriangleTree& other, const Meet& meet) const
 {

@@ -20,9 +20,12 @@ public:
 
     const Face& face(int f) const { return faces_[f]; }
     const Vec3& vertex(int v) const { return vertices_[v]; }
-    Triangle triangle(int f) const { return {vertices_[faces_[f][0]], vertices_[faces_[f][1]], vertices_[faces_[f][2]]}; }
+    Triangle triangle(int f) const
+    {
+        return {vertices_[faces_[f][0]], vertices_[faces_[f][1]], vertices_[faces_[f][2]]};
+    }
 
-    using Meet = std::function<bool(int, int)>;   ///< Called by several threads at once.
+    using Meet = std::function<bool(int, int)>;  ///< Called by several threads at once.
 
     /// Returns the pairs of different triangles whose boxes overlap and which meet, the smaller index first, sorted.
     std::vector<TrianglePair> own_pairs(const Meet& meet) const;
@@ -37,8 +40,8 @@ private:
     };
     struct Node {
         Box box;
-        int first = 0, count = 0;   // its triangles, in tree order
-        int right = 0;              // second child, the first comes next; 0: a leaf
+        int first = 0, count = 0;  // its triangles, in tree order
+        int right = 0;             // second child, the first comes next; 0: a leaf
     };
     using NodePair = std::array<int, 2>;
     struct Search;
@@ -49,7 +52,7 @@ private:
     const std::vector<Vec3>& vertices_;
     const std::vector<Face>& faces_;
     std::vector<int> order_;
-    std::vector<Box> boxes_;        // in tree order
+    std::vector<Box> boxes_;  // in tree order
     std::vector<Node> nodes_;
 };
 

@@ -11,7 +11,7 @@ double eased(double s, bool smooth) { return smooth ? s * s * (3 - 2 * s) : s; }
 // The later of the two entries between which a time lies, and how far it is on the way to it.
 struct Between {
     std::size_t later = 0;
-    double part = 0;      // 0 at the earlier, 1 at the later entry
+    double part = 0;  // 0 at the earlier, 1 at the later entry
 };
 
 template <class Entry>

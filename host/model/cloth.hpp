@@ -10,25 +10,25 @@ namespace selvage {
 /// One flat piece of the cloth: a run of vertices and faces.
 struct ClothPanel {
     std::string name;
-    std::string fabric;             ///< Key into Scene::fabrics.
+    std::string fabric;  ///< Key into Scene::fabrics.
     int first_vertex = 0, vertex_count = 0;
     int first_face = 0, face_count = 0;
-    double rest_area = 0;           ///< Of the exact outline's triangulation [m^2].
-    double rest_boundary = 0;       ///< Length of its boundary polygon [m].
-    bool reversed = false;          ///< Its outside is the side from which the faces look clockwise.
+    double rest_area = 0;      ///< Of the exact outline's triangulation [m^2].
+    double rest_boundary = 0;  ///< Length of its boundary polygon [m].
+    bool reversed = false;     ///< Its outside is the side from which the faces look clockwise.
 };
 
 /// The sampled vertices of one outline edge, from its start to its end.
 struct OutlineSamples {
     int panel = 0, edge = 0;
-    std::vector<int> vertices;          ///< Cloth vertex indices, both corners included.
-    std::vector<double> parameters;     ///< Arc-length fraction in [0, 1], same length as `vertices`.
-    double length = 0;                  ///< Arc length of the exact curve [m].
+    std::vector<int> vertices;       ///< Cloth vertex indices, both corners included.
+    std::vector<double> parameters;  ///< Arc-length fraction in [0, 1], same length as `vertices`.
+    double length = 0;               ///< Arc length of the exact curve [m].
 };
 
 /// Two outline edges sewn together; its pairs are a run of Cloth::seam_pairs.
 struct Seam {
-    int side_a = 0, side_b = 0;         ///< Indices into Cloth::outline.
+    int side_a = 0, side_b = 0;  ///< Indices into Cloth::outline.
     int first_pair = 0, pair_count = 0;
     double length_a = 0, length_b = 0;  ///< [m]; unequal for a gathered seam.
 };
@@ -37,24 +37,24 @@ struct Seam {
 struct PinMotion {
     std::vector<int> vertices;
     double start = 0, end = 1;
-    Vec3 velocity = Vec3::Zero();       ///< [m/s]
-    Vec3 axis = Vec3::UnitZ();          ///< Unit.
-    Vec3 point = Vec3::Zero();          ///< Of the axis [m].
-    double turns = 0;                   ///< From start to end, counter-clockwise.
+    Vec3 velocity = Vec3::Zero();  ///< [m/s]
+    Vec3 axis = Vec3::UnitZ();     ///< Unit.
+    Vec3 point = Vec3::Zero();     ///< Of the axis [m].
+    double turns = 0;              ///< From start to end, counter-clockwise.
 };
 
 /// The flat, unsewn cloth and where it starts. Faces never share vertices across panels: seams join pairs later.
 struct Cloth {
-    std::vector<Vec2> panel_coordinates;              ///< Rest position in the panel's plane: (weft, warp) [m].
-    std::vector<Vec3> positions;                      ///< Start position in the scene [m].
-    std::vector<Face> faces;                          ///< Counter-clockwise in panel coordinates.
+    std::vector<Vec2> panel_coordinates;  ///< Rest position in the panel's plane: (weft, warp) [m].
+    std::vector<Vec3> positions;          ///< Start position in the scene [m].
+    std::vector<Face> faces;              ///< Counter-clockwise in panel coordinates.
     std::vector<ClothPanel> panels;
-    std::vector<OutlineSamples> outline;              ///< Every outline edge of every panel (garments).
+    std::vector<OutlineSamples> outline;  ///< Every outline edge of every panel (garments).
     std::vector<Seam> seams;
-    std::vector<std::array<int, 2>> seam_pairs;       ///< Vertices that are sewn to each other.
-    std::vector<int> pinned;                          ///< Held vertices, sorted.
-    std::vector<PinMotion> pin_motions;               ///< Of held vertices; in the order in which they act.
-    std::vector<std::string> warnings;                ///< What was odd but could be used.
+    std::vector<std::array<int, 2>> seam_pairs;  ///< Vertices that are sewn to each other.
+    std::vector<int> pinned;                     ///< Held vertices, sorted.
+    std::vector<PinMotion> pin_motions;          ///< Of held vertices; in the order in which they act.
+    std::vector<std::string> warnings;           ///< What was odd but could be used.
 };
 
 /// The faces of a cloth wound counter-clockwise as seen from its outside, in the order of Cloth::faces.
@@ -62,9 +62,9 @@ std::vector<Face> outward_faces(const Cloth& cloth);
 
 /// Linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.
 struct Transfer {
-    std::vector<int> offset;       ///< Fine vertex count + 1.
-    std::vector<int> column;       ///< Coarse vertex.
-    std::vector<double> weight;    ///< Non-negative; each row sums to 1.
+    std::vector<int> offset;     ///< Fine vertex count + 1.
+    std::vector<int> column;     ///< Coarse vertex.
+    std::vector<double> weight;  ///< Non-negative; each row sums to 1.
 };
 
 }  // namespace selvage

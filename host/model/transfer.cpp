@@ -10,8 +10,8 @@
 namespace selvage {
 namespace {
 
-// Rounding leaves weights of 1e-17 where a vertex lies on an edge. Products of such weights widen coarse matrices, and in
-// single precision they are subnormal numbers, with which processors are slow.
+// Rounding leaves weights of 1e-17 where a vertex lies on an edge. Products of such weights widen coarse matrices, and
+// in single precision they are subnormal numbers, with which processors are slow.
 constexpr double least_weight = 1e-7;
 
 struct Row {

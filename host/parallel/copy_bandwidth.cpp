@@ -58,7 +58,7 @@ double measure_copy_bandwidth(std::size_t most_bytes, int passes)
         for_each_slice(bytes, threads, [&](std::size_t begin, std::size_t length) {
             std::memcpy(to.get() + begin, from.get() + begin, length);
         });
-        asm volatile("" : : "r"(to.get()) : "memory");   // the copy may not be left out
+        asm volatile("" : : "r"(to.get()) : "memory");  // the copy may not be left out
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         fastest = std::max(fastest, 2.0 * double(bytes) / seconds);
     }

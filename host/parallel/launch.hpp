@@ -23,18 +23,19 @@ constexpr int items_per_task = 1024;
 template <class Body>
 void for_each_item(int count, const Body& body)
 {
-    tbb::parallel_for(tbb::blocked_range<int>(0, count, items_per_task), [body, mark = Trace::mark()](const auto& range) {
-        const TaskSpan span(mark);
-        const int end = range.end();
-        INDEPENDENT_ITEMS
-        for (int item = range.begin(); item < end; ++item) body(item);
-    });
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, items_per_task),
+                      [body, mark = Trace::mark()](const auto& range) {
+                          const TaskSpan span(mark);
+                          const int end = range.end();
+                          INDEPENDENT_ITEMS
+                          for (int item = range.begin(); item < end; ++item) body(item);
+                      });
 }
 
 /// Items that take part: all of [0, count), or `count` of them that a list names in ascending order.
 struct Items {
     int count = 0;
-    const int* list = nullptr;   ///< Null: all.
+    const int* list = nullptr;  ///< Null: all.
 };
 
 /// Runs `body(item)` for the items that take part.

@@ -14,8 +14,8 @@ struct KernelRecord {
     std::string name;
     std::int64_t calls = 0;
     double seconds = 0;
-    std::int64_t items = 0;   ///< Over all calls.
-    std::int64_t bytes = 0;   ///< That it must move, over all calls; 0: not known.
+    std::int64_t items = 0;  ///< Over all calls.
+    std::int64_t bytes = 0;  ///< That it must move, over all calls; 0: not known.
 };
 
 /// Collects what the stages of a run cost. A handful of clock reads per launch: always on. What is timed is also a

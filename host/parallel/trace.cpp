@@ -5,9 +5,9 @@
 namespace selvage {
 namespace {
 
-constexpr std::size_t most_events = 200000;      // of one track: a trace stays small enough for a browser
-constexpr std::int64_t least_gap = 20000;        // tasks of one call nearer than this are drawn as one [ns]
-constexpr std::int64_t first_threshold = 1000;   // [ns]
+constexpr std::size_t most_events = 200000;     // of one track: a trace stays small enough for a browser
+constexpr std::int64_t least_gap = 20000;       // tasks of one call nearer than this are drawn as one [ns]
+constexpr std::int64_t first_threshold = 1000;  // [ns]
 
 }  // namespace
 
@@ -29,7 +29,8 @@ void TraceTrack::add(const TraceEvent& event)
         busy[std::size_t(event.scope)] += event.end - event.begin;
         if (!events.empty()) {
             TraceEvent& last = events.back();
-            if (last.task && last.call == event.call && last.scope == event.scope && event.begin - last.end < least_gap) {
+            if (last.task && last.call == event.call && last.scope == event.scope &&
+                event.begin - last.end < least_gap) {
                 // A task that waited may have run others in its own time.
                 if (event.begin < last.begin) busy[std::size_t(event.scope)] -= last.end - last.begin;
                 last.begin = std::min(last.begin, event.begin);
@@ -55,7 +56,8 @@ void Trace::open(std::string_view name)
                                     [&](int child) { return nodes_[std::size_t(child)].name == name; });
     int node = known == siblings.end() ? int(nodes_.size()) : *known;
     if (known == siblings.end()) {
-        nodes_.push_back({.name = std::string(name), .parent = current_, .depth = nodes_[std::size_t(current_)].depth + 1});
+        nodes_.push_back(
+            {.name = std::string(name), .parent = current_, .depth = nodes_[std::size_t(current_)].depth + 1});
         children_[std::size_t(current_)].push_back(node);
         children_.emplace_back();
     }

@@ -12,26 +12,26 @@ namespace selvage {
 /// A span on the track of one thread, [ns] since the trace began.
 struct TraceEvent {
     std::int64_t begin = 0, end = 0;
-    int scope = 0;            ///< Index into Trace::scopes().
-    std::uint32_t call = 0;   ///< Tells the calls of scopes apart.
-    bool task = false;        ///< Work on items of a launch; false: the scope itself.
+    int scope = 0;           ///< Index into Trace::scopes().
+    std::uint32_t call = 0;  ///< Tells the calls of scopes apart.
+    bool task = false;       ///< Work on items of a launch; false: the scope itself.
 };
 
 /// A named place in the tree of calls, and what was spent there.
 struct TraceNode {
     std::string name;
     int parent = -1, depth = 0;
-    std::int64_t calls = 0, nanoseconds = 0, inner_nanoseconds = 0;   ///< Inner: in the scopes below.
-    std::int64_t bytes = 0, flops = 0;                                ///< Over all calls; 0: not known.
-    std::int64_t launches = 0;                                        ///< By itself, over all calls.
-    std::vector<float> durations = {};                                ///< Of every call [s].
+    std::int64_t calls = 0, nanoseconds = 0, inner_nanoseconds = 0;  ///< Inner: in the scopes below.
+    std::int64_t bytes = 0, flops = 0;                               ///< Over all calls; 0: not known.
+    std::int64_t launches = 0;                                       ///< By itself, over all calls.
+    std::vector<float> durations = {};                               ///< Of every call [s].
 };
 
 /// What one thread did. A thread writes to its own track only.
 struct TraceTrack {
     std::vector<TraceEvent> events;
-    std::vector<std::int64_t> busy;   ///< Per scope: time in tasks [ns].
-    std::int64_t shortest = 0;        ///< Events below it were left out [ns].
+    std::vector<std::int64_t> busy;  ///< Per scope: time in tasks [ns].
+    std::int64_t shortest = 0;       ///< Events below it were left out [ns].
     std::int64_t left_out = 0;
 
     void add(const TraceEvent& event);
@@ -56,11 +56,11 @@ public:
     Trace(const Trace&) = delete;
     Trace& operator=(const Trace&) = delete;
 
-    static Trace* here() { return used_; }   ///< The trace in use by the calling thread, or null.
-    static Mark mark() { return used_ ? used_->next_mark() : Mark{}; }   ///< Of a launch that begins now.
+    static Trace* here() { return used_; }  ///< The trace in use by the calling thread, or null.
+    static Mark mark() { return used_ ? used_->next_mark() : Mark{}; }  ///< Of a launch that begins now.
 
     void open(std::string_view name);
-    void close(std::int64_t bytes, std::int64_t flops);   ///< The scope opened last.
+    void close(std::int64_t bytes, std::int64_t flops);  ///< The scope opened last.
     void add_task(const Mark& mark, std::int64_t begin);
     std::int64_t now() const
     {
@@ -95,7 +95,7 @@ private:
     int current_ = 0;
     std::uint32_t call_ = 0, calls_ = 0;
     mutable tbb::enumerable_thread_specific<TraceTrack> tracks_;
-    TraceTrack* own_;   ///< Of the thread that opens scopes.
+    TraceTrack* own_;  ///< Of the thread that opens scopes.
 };
 
 /// Lets the calling thread record into a trace for as long as this lives.

@@ -7,16 +7,16 @@ namespace selvage {
 
 /// Where a view looks from: around the z axis and above the horizon.
 struct ViewDirection {
-    float azimuth = 0;      ///< [rad]; 0 looks from -y towards +y (the front), pi / 2 from +x, pi from behind.
-    float elevation = 0;    ///< [rad] above the horizon.
+    float azimuth = 0;    ///< [rad]; 0 looks from -y towards +y (the front), pi / 2 from +x, pi from behind.
+    float elevation = 0;  ///< [rad] above the horizon.
 };
 
 /// A perspective camera; screen coordinates run from -1 to 1, right and up.
 struct Camera {
-    Vec3f origin = Vec3f::Zero();                           ///< [m]
+    Vec3f origin = Vec3f::Zero();  ///< [m]
     Vec3f right = Vec3f::UnitX(), up = Vec3f::UnitZ(), forward = Vec3f::UnitY();
-    float half_width = 0.1f, half_height = 0.1f;            ///< Tangents of half the field of view.
-    float subject_depth = 1;                                ///< Distance at which the subject stands [m].
+    float half_width = 0.1f, half_height = 0.1f;  ///< Tangents of half the field of view.
+    float subject_depth = 1;                      ///< Distance at which the subject stands [m].
 
     /// Returns the unit direction through a point of the screen.
     Vec3f direction(float x, float y) const

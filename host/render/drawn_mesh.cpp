@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
+#include <Eigen/Geometry>
 
 namespace selvage {
 namespace {

@@ -11,7 +11,7 @@ using Vec3f = Eigen::Vector3f;
 
 /// Which faces touch each vertex, in compressed rows.
 struct VertexFaces {
-    std::vector<int> offset;    ///< Vertex count + 1.
+    std::vector<int> offset;  ///< Vertex count + 1.
     std::vector<int> face;
 
     std::span<const int> of(int vertex) const
@@ -23,11 +23,11 @@ struct VertexFaces {
 
 /// A mesh made ready for drawing: single precision about an origin, with one shading normal per face corner.
 struct DrawnMesh {
-    std::vector<Vec3f> positions;                   ///< Relative to the picture's origin [m].
-    std::vector<Face> faces;                        ///< Those that can be drawn.
-    std::vector<int> source_face;                   ///< Index of each in the mesh it came from.
-    std::vector<Vec3f> face_normals;                ///< Unit, right-handed.
-    std::vector<std::array<Vec3f, 3>> normals;      ///< Unit, at the corners of each face.
+    std::vector<Vec3f> positions;               ///< Relative to the picture's origin [m].
+    std::vector<Face> faces;                    ///< Those that can be drawn.
+    std::vector<int> source_face;               ///< Index of each in the mesh it came from.
+    std::vector<Vec3f> face_normals;            ///< Unit, right-handed.
+    std::vector<std::array<Vec3f, 3>> normals;  ///< Unit, at the corners of each face.
     VertexFaces vertex_faces;
 
     /// Returns the point of a face with weights (1 - u - v, u, v) on its corners.

@@ -32,7 +32,7 @@ private:
     const DrawnMesh* mesh_ = nullptr;
     std::vector<std::array<int, 2>> lines_;
     float reach_ = 0;
-    std::vector<int> offset_;       ///< Face count + 1.
+    std::vector<int> offset_;  ///< Face count + 1.
     std::vector<int> near_line_;
 };
 

@@ -16,8 +16,8 @@
 namespace selvage {
 namespace {
 
-constexpr float margin = 0.05f;                     // kept free on each side of a view
-constexpr float flattest = 0.62f, tallest = 1.3f;   // height / width of one view
+constexpr float margin = 0.05f;                    // kept free on each side of a view
+constexpr float flattest = 0.62f, tallest = 1.3f;  // height / width of one view
 const Vec3f warning_colour(0.85f, 0.09f, 0.03f);
 
 void check(const PictureCloth& cloth, const PictureOptions& options)
@@ -92,8 +92,7 @@ Image render_picture(const PictureCloth& cloth, const std::vector<TriangleMesh>&
     const int view_width = options.width / 2;
     const int height = int(std::lround(aspect * float(view_width)));
     std::array<Camera, 2> cameras;
-    for (std::size_t view = 0; view < 2; ++view)
-        cameras[view] = frame_points(points, directions[view], aspect, margin);
+    for (std::size_t view = 0; view < 2; ++view) cameras[view] = frame_points(points, directions[view], aspect, margin);
 
     const DrawnMesh& mesh = scene.meshes.front();
     ClothLook& look = scene.cloth;

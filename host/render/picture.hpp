@@ -9,24 +9,24 @@ namespace selvage {
 
 /// The cloth as it is drawn.
 struct PictureCloth {
-    std::vector<Vec3> positions;                    ///< [m], z up
+    std::vector<Vec3> positions;  ///< [m], z up
     std::vector<Face> faces;
-    std::vector<int> face_panel;                    ///< Panel of each face, for its colour; empty for one panel.
-    std::vector<std::array<int, 2>> seam_edges;     ///< Vertex pairs drawn as stitching.
-    std::vector<int> highlighted_faces;             ///< Drawn in a warning colour.
+    std::vector<int> face_panel;                 ///< Panel of each face, for its colour; empty for one panel.
+    std::vector<std::array<int, 2>> seam_edges;  ///< Vertex pairs drawn as stitching.
+    std::vector<int> highlighted_faces;          ///< Drawn in a warning colour.
 };
 
 /// The two views that stand side by side.
 enum class PictureViews {
-    automatic,          ///< Front and back for cloth with seams, three quarters for sheets.
-    front_and_back,     ///< From -y and from +y, a little from above.
-    three_quarters,     ///< From the front right and the back left, from above.
+    automatic,       ///< Front and back for cloth with seams, three quarters for sheets.
+    front_and_back,  ///< From -y and from +y, a little from above.
+    three_quarters,  ///< From the front right and the back left, from above.
 };
 
 struct PictureOptions {
-    int width = 1600;               ///< Of the whole picture [pixels]; its height follows from the subject.
-    int samples_per_axis = 3;       ///< Square root of the camera rays per pixel.
-    bool ground = true;             ///< Lets the subject cast a shadow on a ground below it.
+    int width = 1600;          ///< Of the whole picture [pixels]; its height follows from the subject.
+    int samples_per_axis = 3;  ///< Square root of the camera rays per pixel.
+    bool ground = true;        ///< Lets the subject cast a shadow on a ground below it.
     PictureViews views = PictureViews::automatic;
 };
 

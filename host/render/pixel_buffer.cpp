@@ -9,7 +9,7 @@ namespace selvage {
 namespace {
 
 constexpr float same_piece_cosine = 0.93f;
-constexpr float same_piece_offset = 3;      // out of the tangent plane, in pixels
+constexpr float same_piece_offset = 3;  // out of the tangent plane, in pixels
 
 bool show_same_piece(const Pixel& a, const Pixel& b, float pixel_size)
 {
@@ -32,8 +32,7 @@ Vec3f smoothed_colour(const PixelBuffer& buffer, int column, int row, float pixe
         for (int x = std::max(0, column - half); x <= std::min(buffer.width - 1, column + half); ++x) {
             const Pixel& other = buffer.at(x, y);
             if (!show_same_piece(pixel, other, pixel_size)) continue;
-            const float weight =
-                (std::abs(x - column) == half ? 0.5f : 1.f) * (std::abs(y - row) == half ? 0.5f : 1.f);
+            const float weight = (std::abs(x - column) == half ? 0.5f : 1.f) * (std::abs(y - row) == half ? 0.5f : 1.f);
             light += weight * other.light;
             total += weight;
         }

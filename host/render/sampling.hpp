@@ -29,7 +29,7 @@ inline std::uint32_t mixed_bits(std::uint32_t bits)
 /// Sampling).
 class InterleavedSamples {
 public:
-    static constexpr int block = 4;     ///< [pixels]
+    static constexpr int block = 4;  ///< [pixels]
 
     explicit InterleavedSamples(int samples_per_pixel) : samples_per_pixel_(samples_per_pixel)
     {

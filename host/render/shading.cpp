@@ -13,10 +13,10 @@ const Vec3f zenith_colour(0.46f, 0.50f, 0.56f);
 const Vec3f horizon_colour(0.28f, 0.285f, 0.30f);
 const Vec3f floor_colour(0.17f, 0.155f, 0.14f);
 const Vec3f body_colour(0.60f, 0.54f, 0.47f);
-constexpr float key_radius = 0.22f;         // tangent of the key light's angular radius
+constexpr float key_radius = 0.22f;  // tangent of the key light's angular radius
 
-constexpr float stitch_offset = 4.5f;       // of a seam's top stitching, in line widths
-constexpr float hem_offset = 8.f;           // of a hem's stitching, in line widths
+constexpr float stitch_offset = 4.5f;  // of a seam's top stitching, in line widths
+constexpr float hem_offset = 8.f;      // of a hem's stitching, in line widths
 
 float smooth_step(float low, float high, float value)
 {

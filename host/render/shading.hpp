@@ -11,9 +11,9 @@ namespace selvage {
 
 /// The cloth's drawing: its colours and the lines on it.
 struct ClothLook {
-    std::vector<Vec3f> face_colours;    ///< Linear reflectance of each drawn face.
+    std::vector<Vec3f> face_colours;  ///< Linear reflectance of each drawn face.
     LineMarks seams, hems;
-    float line_width = 0;               ///< Of a seam's stitching [m].
+    float line_width = 0;  ///< Of a seam's stitching [m].
 };
 
 /// What stands in the picture. Mesh 0 is the cloth, the rest are bodies.
@@ -21,8 +21,8 @@ struct PictureScene {
     std::vector<DrawnMesh> meshes;
     ClothLook cloth;
     bool has_ground = false;
-    float ground_height = 0;            ///< [m]
-    float radius = 0;                   ///< Of what is framed, about the origin [m].
+    float ground_height = 0;  ///< [m]
+    float radius = 0;         ///< Of what is framed, about the origin [m].
 };
 
 /// How a point looks: linear colour is reflectance times light.

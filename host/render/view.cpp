@@ -12,9 +12,9 @@
 namespace selvage {
 namespace {
 
-constexpr int scout_rays = 4;               // a pixel in which all of these miss the subject takes no more
-constexpr float border = 0.12f;             // part of a view's width over which shadows fade towards its sides
-constexpr int tile = 32;                    // [pixels]
+constexpr int scout_rays = 4;    // a pixel in which all of these miss the subject takes no more
+constexpr float border = 0.12f;  // part of a view's width over which shadows fade towards its sides
+constexpr int tile = 32;         // [pixels]
 constexpr float same_surface_cosine = 0.8f;
 
 struct UnitSquare {
@@ -151,8 +151,7 @@ void draw_view(const PictureScene& scene, const SceneTracer& tracer, const Camer
 
     const float pixel_size = camera.pixel_size(width);
     for_every_pixel(width, image.height, [&](int column, int row) {
-        image.at(first_column + column, row) =
-            quantised(smoothed_colour(buffer, column, row, pixel_size), column, row);
+        image.at(first_column + column, row) = quantised(smoothed_colour(buffer, column, row, pixel_size), column, row);
     });
 }
 

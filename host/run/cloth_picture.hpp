@@ -7,8 +7,8 @@
 
 namespace selvage {
 
-/// The outward faces of a cloth with one vertex standing for all that are sewn to each other, so that faces of two panels
-/// share the vertices of their seam.
+/// The outward faces of a cloth with one vertex standing for all that are sewn to each other, so that faces of two
+/// panels share the vertices of their seam.
 std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology);
 
 /// Draws the cloth and its bodies into a PNG file, seams visible.

@@ -34,7 +34,7 @@ void DrapeRun::start_phase(const std::string& name, const std::vector<Vec3>& pos
     const auto plan = std::find_if(plan_.phases.begin(), plan_.phases.end(),
                                    [&](const PhasePlan& phase) { return phase.name == name; });
     integrator_.reset();
-    phase_.reset();   // two phases at once would double the memory
+    phase_.reset();  // two phases at once would double the memory
     phase_ = std::make_unique<Phase>(model_.model, phase_options(scene_, model_, *plan),
                                      plan->queries_bodies ? &*query_ : nullptr, profile_, positions, velocities);
     integrator_ = make_integrator(integrator_of(scene_), *phase_);
@@ -54,7 +54,7 @@ void DrapeRun::start_afresh(const std::string& progress)
     start_phase(phase, model_.model.cloth.positions, {});
     recorder_->open_phase(phase, phase_->topology(), -1);
     progress_.phase = progress;
-    const bool shows = progress != "coarse" || !model_.sews;   // panels that have been joined unsewn are no sight
+    const bool shows = progress != "coarse" || !model_.sews;  // panels that have been joined unsewn are no sight
     if (scene_.output.frames && shows) recorder_->write_frame(*phase_, {}, elapsed(), true);
 }
 
@@ -89,8 +89,9 @@ void DrapeRun::note_stability(const StepEvent& event)
     stability_.limit = first ? event.stable_step : std::min(stability_.limit, event.stable_step);
     stability_.taken = first ? event.shortest : std::min(stability_.taken, event.shortest);
     if (first && event.shortest < scene_.solver.step)
-        recorder_->say(fmt::format("solver.step is {:.3g} s, the stability limit of {} here {:.3g} s: taking steps of {:.3g} s",
-                                   scene_.solver.step, integrator_of(scene_), event.stable_step, event.shortest));
+        recorder_->say(
+            fmt::format("solver.step is {:.3g} s, the stability limit of {} here {:.3g} s: taking steps of {:.3g} s",
+                        scene_.solver.step, integrator_of(scene_), event.stable_step, event.shortest));
 }
 
 bool DrapeRun::after_step(const StepEvent& event)
@@ -147,7 +148,7 @@ EquilibriumOptions DrapeRun::draping_options()
     options.step.error = scene_.solver.step_error;
     options.step.unstable = scene_.solver.unstable_step == "refuse" ? UnstableStep::refuse : UnstableStep::shrink;
     options.integrator = integrator_.get();
-    options.hurries = scene_.solver.integrator != "bdf2";   // who asks for it asks for the whole motion
+    options.hurries = scene_.solver.integrator != "bdf2";  // who asks for it asks for the whole motion
     options.tolerance = scene_.solver.tolerance;
     options.max_time = scene_.solver.max_time;
     options.newton_iterations = scene_.solver.newton_iterations;
@@ -223,9 +224,11 @@ RunOutcome DrapeRun::conclude_at_rest()
     cloth->begin(phase_->state());
     const int left = cloth->counts().tangles + cloth->counts().inside;
     if (left == 0) return conclude(RunStatus::converged, "");
-    return conclude(RunStatus::time_limit,
-                    fmt::format("at rest, but {} pairs of triangles intersect and {} vertices are inside a body; they did so "
-                                "at the start: `selvage check` shows where", cloth->counts().tangles, cloth->counts().inside));
+    return conclude(
+        RunStatus::time_limit,
+        fmt::format("at rest, but {} pairs of triangles intersect and {} vertices are inside a body; they did so "
+                    "at the start: `selvage check` shows where",
+                    cloth->counts().tangles, cloth->counts().inside));
 }
 
 RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "host/scene/plan.hpp"
 #include "host/run/progressive.hpp"
 #include "host/run/restart.hpp"
 #include "host/run/run.hpp"
 #include "host/run/run_recorder.hpp"
+#include "host/scene/plan.hpp"
 #include "host/scene/scene_model.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/sewing.hpp"
@@ -53,12 +53,12 @@ private:
     Profile profile_;
     std::optional<BodyQuery> query_;
     std::unique_ptr<Phase> phase_;
-    std::unique_ptr<Integrator> integrator_;   ///< Of the drape; sewing has its own.
+    std::unique_ptr<Integrator> integrator_;  ///< Of the drape; sewing has its own.
     StabilityUse stability_;
     std::vector<CoarseStage> coarse_stages_;
     RunProgress progress_;
-    double wall_before_ = 0;        ///< Of the runs that this one resumes [s].
-    double last_checkpoint_ = 0;    ///< elapsed() then [s].
+    double wall_before_ = 0;      ///< Of the runs that this one resumes [s].
+    double last_checkpoint_ = 0;  ///< elapsed() then [s].
     std::unique_ptr<RunRecorder> recorder_;
 };
 

@@ -72,8 +72,8 @@ std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<V
             boundary += (x[a] - x[b]).norm();
             flat_boundary += (cloth.panel_coordinates[a] - cloth.panel_coordinates[b]).norm();
         }
-        measures.push_back({panel.name, std::abs(area - flat_area) / flat_area,
-                            std::abs(boundary - flat_boundary) / flat_boundary});
+        measures.push_back(
+            {panel.name, std::abs(area - flat_area) / flat_area, std::abs(boundary - flat_boundary) / flat_boundary});
     }
     return measures;
 }

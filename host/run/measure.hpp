@@ -10,7 +10,7 @@ namespace selvage {
 /// Principal stretches minus one over all faces, in each face's own rest plane [1].
 struct StretchMeasure {
     double min = 0, max = 0;
-    double p99 = 0;   ///< Magnitude below which 99 % of the principal stretches lie.
+    double p99 = 0;  ///< Magnitude below which 99 % of the principal stretches lie.
 };
 
 /// How much sewing and draping changed a panel: |now - flat| / flat [1] (A13).

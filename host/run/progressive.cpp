@@ -4,20 +4,21 @@
 #include <memory>
 #include <optional>
 
-#include "host/run/cloth_picture.hpp"
 #include "host/mesh/self_intersections.hpp"
+#include "host/parallel/launch.hpp"
+#include "host/run/cloth_picture.hpp"
 #include "host/scene/scene_phase.hpp"
 #include "host/solver/contact/fabric_contact.hpp"
-#include "host/parallel/launch.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double coarsest_edge = 0.025;   // [m], of garments: longer ones do not lie around arms as the finer ones will
+constexpr double coarsest_edge = 0.025;  // [m], of garments: longer ones do not lie around arms as the finer ones will
 
-constexpr double most_tangled = 0.01;        // intersections per triangle with which a carried garment may start
-constexpr std::size_t worth_sewing_first = 2;   // levels below a garment: with one, its own drape costs as much as it saves
+constexpr double most_tangled = 0.01;  // intersections per triangle with which a carried garment may start
+constexpr std::size_t worth_sewing_first =
+    2;  // levels below a garment: with one, its own drape costs as much as it saves
 
 // What hangs freely is near its rest in the shape that was carried over: the static energy is tried before any motion.
 // Cloth that lies on bodies has folds that only the finer mesh can make, and is not.
@@ -45,8 +46,8 @@ struct Stage {
     void start(const PhasePlan& with, const std::vector<Vec3>& positions, Profile& profile)
     {
         phase.reset();
-        phase = std::make_unique<Phase>(model.model, phase_options(scene, model, with), query ? &*query : nullptr, profile,
-                                        positions, std::vector<Vec3>{});
+        phase = std::make_unique<Phase>(model.model, phase_options(scene, model, with), query ? &*query : nullptr,
+                                        profile, positions, std::vector<Vec3>{});
     }
 };
 
@@ -130,8 +131,7 @@ std::string why_no_coarse_start(const Scene& scene, const SceneModel& model)
     if (scene.bending.hysteresis) return "bending hysteresis remembers the way (bending.hysteresis)";
     const std::size_t levels = levels_used(scene, model);
     if (levels == 0) return "there are no coarser meshes of the cloth";
-    if (scene.has_garment() && levels < worth_sewing_first)
-        return "the garment is coarse enough to be sewn as it is";
+    if (scene.has_garment() && levels < worth_sewing_first) return "the garment is coarse enough to be sewn as it is";
     return "";
 }
 
@@ -155,7 +155,8 @@ CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, cons
         const TraceScope scope("coarse_" + std::to_string(level + 1));
         const auto begin = std::chrono::steady_clock::now();
         Stage stage(scene, model, level);
-        const Cloth &own = stage.model.model.cloth, &finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
+        const Cloth &own = stage.model.model.cloth,
+                    &finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
         const bool carried = !start.positions.empty();
         CoarseStage report{.vertices = int(own.positions.size())};
         start.stopped = !drape_stage(stage, model.sews && !carried, carried ? start.positions : own.positions, options,
@@ -170,7 +171,8 @@ CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, cons
         const double most = model.sews ? most_tangled * double(finer.faces.size()) : 0;
         report.used = report.used && report.intersections <= most;
         if (!report.used) start.positions.clear();
-        progress = report.used ? after_carrying(progress.time, !model.model.bodies.empty()) : DrapeProgress{.time = progress.time};
+        progress = report.used ? after_carrying(progress.time, !model.model.bodies.empty())
+                               : DrapeProgress{.time = progress.time};
         report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         start.stages.push_back(report);
     }

@@ -16,32 +16,33 @@ std::string why_no_coarse_start(const Scene& scene, const SceneModel& model);
 struct CoarseStage {
     int vertices = 0;
     int newton_iterations = 0, linear_iterations = 0;
-    double residual = std::numeric_limits<double>::quiet_NaN();   ///< Relative force residual at its end [1]; NaN: it diverged.
+    double residual =
+        std::numeric_limits<double>::quiet_NaN();  ///< Relative force residual at its end [1]; NaN: it diverged.
     double wall_seconds = 0;
-    int intersections = 0;    ///< Of the shape that was carried over from it, with itself and with bodies.
-    bool used = true;         ///< False: it diverged, or the finer mesh in its shape intersects too much.
+    int intersections = 0;  ///< Of the shape that was carried over from it, with itself and with bodies.
+    bool used = true;       ///< False: it diverged, or the finer mesh in its shape intersects too much.
 };
 
 struct CoarseStart {
-    std::vector<CoarseStage> stages;    ///< Coarsest first.
-    std::vector<Vec3> positions;        ///< Of the finest cloth [m]; empty if there is no shape to start it from.
-    bool stopped = false;               ///< By after_step; there are no positions then.
+    std::vector<CoarseStage> stages;  ///< Coarsest first.
+    std::vector<Vec3> positions;      ///< Of the finest cloth [m]; empty if there is no shape to start it from.
+    bool stopped = false;             ///< By after_step; there are no positions then.
 };
 
 /// Drapes the coarser cloths of a scene, each from the shape of the one before, and carries the last shape over to the
-/// scene's own cloth. A garment is sewn at the coarsest. Most of the way is gone there, where a step costs next to nothing;
-/// on bodies only until the forces nearly balance, since the last of the way is another one on the finer mesh.
+/// scene's own cloth. A garment is sewn at the coarsest. Most of the way is gone there, where a step costs next to
+/// nothing; on bodies only until the forces nearly balance, since the last of the way is another one on the finer mesh.
 /// Where cloth must not pass through itself or a body, a carried shape that does is dropped, as is that of a stage that
-/// diverged: the finer cloth then starts as the scene says. A garment may start with a few intersections: it is untangled.
-/// Source: Zhang and others 2022, progressive cloth quasistatics.
+/// diverged: the finer cloth then starts as the scene says. A garment may start with a few intersections: it is
+/// untangled. Source: Zhang and others 2022, progressive cloth quasistatics.
 /// @param options   of the run itself; its integrator is not used
 /// @param progress  its time goes on from stage to stage
 CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, const EquilibriumOptions& options,
                                DrapeProgress& progress, Profile& profile, const AfterStep& after_step);
 
-/// Interpolates a shape of a coarser cloth, linearly: the fine edges are then as stretched as the coarse ones. A smoother
-/// surface would be longer than its chords, and cloth resists that far more than the creases that are left behind (an
-/// interpolation exact for quadratic shapes took 12 Newton iterations in place of 7 on a hanging sheet).
+/// Interpolates a shape of a coarser cloth, linearly: the fine edges are then as stretched as the coarse ones. A
+/// smoother surface would be longer than its chords, and cloth resists that far more than the creases that are left
+/// behind (an interpolation exact for quadratic shapes took 12 Newton iterations in place of 7 on a hanging sheet).
 /// Held vertices of the fine cloth stay where they are.
 /// @param positions  per coarse vertex [m]
 std::vector<Vec3> carry_over(const Cloth& fine, const Transfer& transfer, const std::vector<Vec3>& positions);

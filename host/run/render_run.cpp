@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <map>
 
-#include "host/scene/body_model.hpp"
 #include "host/render/picture.hpp"
+#include "host/scene/body_model.hpp"
 #include "io/errors.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/run/trajectory.hpp"
@@ -48,7 +48,7 @@ std::vector<TriangleMesh> bodies_at(const TrajectoryReader& reader, const std::s
         if (std::filesystem::exists(file)) meshes.push_back(read_obj(file, "m", "z"));
         return meshes;
     }
-    const double bodies_time = run.filename() == "sewing.h5" ? 0 : time;   // they wait until the garment is sewn
+    const double bodies_time = run.filename() == "sewing.h5" ? 0 : time;  // they wait until the garment is sewn
     for (const Body& body : build_bodies(read_scene_text(text, reader.layout().scene_file)))
         meshes.push_back(body_mesh_at(body, bodies_time));
     return meshes;
@@ -69,7 +69,8 @@ void render_run(const std::string& run_h5, const std::string& png, int frame, in
     const TrajectoryReader reader(run_h5);
     const int count = reader.frame_count(), at = frame < 0 ? count + frame : frame;
     if (at < 0 || at >= count)
-        throw InputError({run_h5, 0, 0, "frame"}, std::to_string(frame), "a frame from 0 to " + std::to_string(count - 1));
+        throw InputError({run_h5, 0, 0, "frame"}, std::to_string(frame),
+                         "a frame from 0 to " + std::to_string(count - 1));
     PictureCloth picture;
     picture.positions = reader.read_frame(at);
     picture.faces = reader.layout().triangles;

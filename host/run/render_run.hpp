@@ -3,8 +3,8 @@
 
 namespace selvage {
 
-/// Draws a frame of a run.h5 or sewing.h5 with its bodies: those of the body.obj beside it, or, if they move, those that
-/// the run's scene has at that time.
+/// Draws a frame of a run.h5 or sewing.h5 with its bodies: those of the body.obj beside it, or, if they move, those
+/// that the run's scene has at that time.
 /// @param frame  from 0; negative: counted from the end
 /// @param width  of the picture [pixels]
 /// @param body_obj  when not empty, the bodies are written there as well

@@ -63,8 +63,9 @@ std::string model_fingerprint(const SceneModel& model)
     for (const Face& f : cloth.faces) print.add(f);
     for (const auto& pair : cloth.seam_pairs) print.add(pair);
     for (const auto& [name, f] : model.model.fabrics)
-        for (double value : {f.areal_density, f.stretch_weft, f.stretch_warp, f.stretch_coupling, f.shear,
-                             f.bending_weft, f.bending_warp, f.hysteresis_weft, f.hysteresis_warp, f.friction, f.damping})
+        for (double value :
+             {f.areal_density, f.stretch_weft, f.stretch_warp, f.stretch_coupling, f.shear, f.bending_weft,
+              f.bending_warp, f.hysteresis_weft, f.hysteresis_warp, f.friction, f.damping})
             print.add(value);
     for (const auto& [name, f] : model.model.fabrics)
         for (const StressCurve& curve : membrane_curves(f))
@@ -90,15 +91,21 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
 {
     const State& state = phase.state();
     Checkpoint checkpoint;
-    checkpoint.words = {{"model", model_fingerprint(model)}, {"phase", p.phase},
-                        {"integrator", std::string(integrator.info().name)}};
-    checkpoint.integers["counts"] = {p.counters.steps, p.counters.newton_iterations, p.counters.linear_iterations,
-                                     p.frames, p.sewing.steps_without_gain, p.pressing.step, p.draping.hold,
-                                     p.draping.load, state.awake.all ? 0 : p.draping.asleep};
+    checkpoint.words = {
+        {"model", model_fingerprint(model)}, {"phase", p.phase}, {"integrator", std::string(integrator.info().name)}};
+    checkpoint.integers["counts"] = {p.counters.steps,
+                                     p.counters.newton_iterations,
+                                     p.counters.linear_iterations,
+                                     p.frames,
+                                     p.sewing.steps_without_gain,
+                                     p.pressing.step,
+                                     p.draping.hold,
+                                     p.draping.load,
+                                     state.awake.all ? 0 : p.draping.asleep};
     checkpoint.reals["clock"] = {p.counters.simulated, p.wall_seconds};
-    checkpoint.reals["sewing"] = {p.sewing.time, p.sewing.best_gap, p.sewing.elastic_energy, p.sewing.gap,
-                                  p.sewing.energy_change, p.sewing.dt, phase.params().seam.stiffness,
-                                  phase.params().seam.force_limit};
+    checkpoint.reals["sewing"] = {
+        p.sewing.time,          p.sewing.best_gap, p.sewing.elastic_energy,       p.sewing.gap,
+        p.sewing.energy_change, p.sewing.dt,       phase.params().seam.stiffness, phase.params().seam.force_limit};
     checkpoint.reals["draping"] = {p.pressing.dt, p.draping.time, p.draping.switch_residual, p.draping.residual,
                                    p.draping.dt};
     checkpoint.reals["pos"] = state.pos;
@@ -161,7 +168,8 @@ void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase
     if (ClothContact* cloth = phase.cloth_contact()) {
         const auto found = checkpoint.reals.find("pair_memory");
         if (found == checkpoint.reals.end() || found->second.size() % ClothContact::memory_size != 0)
-            throw InputError({path, 0, 0, "pair_memory"}, "no such array, or a part of one", "whole records of contacts");
+            throw InputError({path, 0, 0, "pair_memory"}, "no such array, or a part of one",
+                             "whole records of contacts");
         cloth->memory() = found->second;
     }
     const auto& sewing = array_of(checkpoint.reals, "sewing", path, 8);
@@ -172,8 +180,9 @@ void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase
         cloth->set_faults(array_of(checkpoint.reals, "cloth_faults", path, cloth->faults().size()));
     if (!checkpoint.integers.contains("is_awake")) return;
     const auto& awake = array_of(checkpoint.integers, "is_awake", path, std::size_t(state.size.vertex_count));
-    phase.newton().static_residual();   // what sleeps is evaluated for the last time
-    put_to_sleep(phase, std::vector<char>(awake.begin(), awake.end()), array_of(checkpoint.reals, "asleep", path, 1)[0]);
+    phase.newton().static_residual();  // what sleeps is evaluated for the last time
+    put_to_sleep(phase, std::vector<char>(awake.begin(), awake.end()),
+                 array_of(checkpoint.reals, "asleep", path, 1)[0]);
 }
 
 void load_history(const Checkpoint& checkpoint, const std::string& path, Integrator& integrator)

@@ -9,13 +9,13 @@ namespace selvage {
 
 /// Everything of a run that changes while it runs, beside the particles.
 struct RunProgress {
-    std::string phase;              ///< "sew", "press", "coarse" or "drape".
+    std::string phase;  ///< "sew", "press", "coarse" or "drape".
     SewingProgress sewing;
     PressProgress pressing;
     DrapeProgress draping;
     RunCounters counters;
-    double wall_seconds = 0;        ///< Of this run and those it resumed [s].
-    int frames = 0;                 ///< Committed in the phase's trajectory.
+    double wall_seconds = 0;  ///< Of this run and those it resumed [s].
+    int frames = 0;           ///< Committed in the phase's trajectory.
 };
 
 /// Returns a text that tells scene models apart: cloth, fabrics and bodies, not how the solver is set.

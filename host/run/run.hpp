@@ -1,22 +1,22 @@
 #pragma once
 #include <string>
 
-#include "io/scene/scene.hpp"
 #include "io/run/summary.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 
 struct RunOptions {
-    std::string folder = "out";   ///< Where the results go; made if missing.
-    bool resume = false;          ///< Go on from the folder's checkpoint.
-    bool quiet = false;           ///< No progress on stderr.
-    bool profile = false;         ///< Print what every phase cost, and leave trace.json.
+    std::string folder = "out";  ///< Where the results go; made if missing.
+    bool resume = false;         ///< Go on from the folder's checkpoint.
+    bool quiet = false;          ///< No progress on stderr.
+    bool profile = false;        ///< Print what every phase cost, and leave trace.json.
 };
 
 struct RunOutcome {
     RunStatus status = RunStatus::finished;
     int exit_code = 0;
-    std::string message;          ///< For stderr; empty when there is nothing to say.
+    std::string message;  ///< For stderr; empty when there is nothing to say.
 };
 
 /// Sews and drapes a scene and writes trajectory, summary, last frame, picture and checkpoints into the folder.

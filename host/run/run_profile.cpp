@@ -51,7 +51,7 @@ ProfileReport profile_report(const Trace& trace, int threads, double copy_bytes_
     report.threads = threads;
     report.copy_bytes_per_second = copy_bytes_per_second;
     for (const TraceNode& node : trace.scopes()) report.rows.push_back(row_of(node));
-    ProfileRow& whole = report.rows.front();   // is never opened: it stands for all that is recorded
+    ProfileRow& whole = report.rows.front();  // is never opened: it stands for all that is recorded
     whole.calls = 1;
     whole.total_s = whole.p50_s = whole.p95_s = 1e-9 * double(trace.now());
     whole.self_s += whole.total_s;
@@ -61,7 +61,8 @@ ProfileReport profile_report(const Trace& trace, int threads, double copy_bytes_
         track.thread = t == 0 ? "main" : fmt::format("worker {}", t);
         track.left_out = tracks[t].left_out;
         track.shortest_s = 1e-9 * double(tracks[t].shortest);
-        for (const TraceEvent& event : tracks[t].events) track.events.push_back({event.begin, event.end, event.scope, event.task});
+        for (const TraceEvent& event : tracks[t].events)
+            track.events.push_back({event.begin, event.end, event.scope, event.task});
         for (std::size_t scope = 0; scope < tracks[t].busy.size(); ++scope)
             report.rows[scope].busy_s += 1e-9 * double(tracks[t].busy[scope]);
         report.tracks.push_back(std::move(track));

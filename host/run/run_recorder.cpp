@@ -6,8 +6,8 @@
 
 #include <tbb/global_control.h>
 
-#include "host/run/cloth_picture.hpp"
 #include "host/mesh/self_intersections.hpp"
+#include "host/run/cloth_picture.hpp"
 #include "host/run/measure.hpp"
 #include "host/scene/scene_phase.hpp"
 #include "host/solver/terms/elastic_energy.hpp"
@@ -113,7 +113,7 @@ void RunRecorder::report(const std::string& phase, const StepEvent& event, int s
     state.time = event.time;
     state.step = steps;
     state.frames = frame_count();
-    if (!sewing_phase_) state.residual = event.residual;   // while sewing it is a gap
+    if (!sewing_phase_) state.residual = event.residual;  // while sewing it is a gap
     progress_->update(state);
 }
 
@@ -154,7 +154,9 @@ void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const std::ve
             for (int& v : face) v -= panel.first_vertex;
             faces[p].push_back(face);
         }
-        const auto range = [&](const auto& all) { return std::span(all).subspan(panel.first_vertex, panel.vertex_count); };
+        const auto range = [&](const auto& all) {
+            return std::span(all).subspan(panel.first_vertex, panel.vertex_count);
+        };
         objects.push_back({panel.name, range(positions), faces[p], range(cloth.panel_coordinates)});
     }
     write_obj(folder_ + "/final.obj", objects);
@@ -195,8 +197,8 @@ void RunRecorder::count_intersections(RunSummary& summary, const std::vector<Vec
 
 void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
                            const RunCounters& counters, const StabilityUse& stability,
-                           const std::vector<CoarseStage>& coarse_stages, const Profile& profile,
-                           double residual, double wall_seconds, const std::string& message)
+                           const std::vector<CoarseStage>& coarse_stages, const Profile& profile, double residual,
+                           double wall_seconds, const std::string& message)
 {
     const std::vector<Vec3> positions = phase.positions();
     std::vector<TriangleMesh> bodies;

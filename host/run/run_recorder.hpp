@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/plan.hpp"
 #include "host/run/progressive.hpp"
 #include "host/run/run.hpp"
+#include "host/scene/plan.hpp"
 #include "host/scene/scene_model.hpp"
 #include "host/solver/stepping/step_control.hpp"
 #include "io/run/checkpoint.hpp"
@@ -22,8 +22,8 @@ struct RunCounters {
     int steps = 0;
     int newton_iterations = 0;
     int linear_iterations = 0;
-    double simulated = 0;                    ///< All phases [s].
-    std::map<std::string, double> phases;    ///< Wall seconds of each phase.
+    double simulated = 0;                  ///< All phases [s].
+    std::map<std::string, double> phases;  ///< Wall seconds of each phase.
 };
 
 /// Writes what a run leaves in its folder.
@@ -52,8 +52,8 @@ public:
     /// @param time  at which the bodies are shown [s]
     void conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
                   const RunCounters& counters, const StabilityUse& stability,
-                  const std::vector<CoarseStage>& coarse_stages, const Profile& profile,
-                  double residual, double wall_seconds, const std::string& message);
+                  const std::vector<CoarseStage>& coarse_stages, const Profile& profile, double residual,
+                  double wall_seconds, const std::string& message);
 
 private:
     double frame_time_after(double time) const;
@@ -67,11 +67,11 @@ private:
     std::string folder_;
     std::optional<TrajectoryWriter> trajectory_;
     std::unique_ptr<ProgressReport> progress_;
-    double next_frame_ = 0;          ///< Simulated time at which the next frame is due [s].
-    double last_frame_ = -1;         ///< Time of the last written frame [s].
-    int frames_ = 0;                 ///< Of run.h5.
+    double next_frame_ = 0;   ///< Simulated time at which the next frame is due [s].
+    double last_frame_ = -1;  ///< Time of the last written frame [s].
+    int frames_ = 0;          ///< Of run.h5.
     int iterations_since_frame_ = 0;
-    bool relaxed_since_frame_ = false;   ///< By static iterations, which take no simulated time.
+    bool relaxed_since_frame_ = false;  ///< By static iterations, which take no simulated time.
     bool sewing_phase_ = false;
 };
 

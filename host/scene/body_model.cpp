@@ -11,7 +11,7 @@
 namespace selvage {
 namespace {
 
-constexpr double degrees_per_pose = 4;   // a straight way between two poses shortens an arm by 0.06 % of its length
+constexpr double degrees_per_pose = 4;  // a straight way between two poses shortens an arm by 0.06 % of its length
 
 MannequinMeasures body_measures(const BodyScene& body)
 {

@@ -6,17 +6,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "host/mesh/body_tessellation.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double drawn_plane_width = 4;     // [m]
-constexpr double flattest = 1.2e-4;         // how far a sphere may rise above its tessellation, if a level does it [m]
-constexpr double least_length = 1e-6;       // a direction shorter than this [m] cannot be meant
+constexpr double drawn_plane_width = 4;  // [m]
+constexpr double flattest = 1.2e-4;      // how far a sphere may rise above its tessellation, if a level does it [m]
+constexpr double least_length = 1e-6;    // a direction shorter than this [m] cannot be meant
 
 std::string body_key(int index, const char* key) { return fmt::format("body[{}].{}", index, key); }
 
@@ -132,9 +132,8 @@ void add_motion(Body& body, const BodyScene& body_scene, std::vector<LoadedPose>
 {
     if (!body_scene.moves()) return;
     std::vector<MotionKey> keys;
-    const bool rigid = std::any_of(body_scene.keyframes.begin(), body_scene.keyframes.end(), [](const auto& key) {
-        return !key.translation.isZero() || !key.rotation.isZero();
-    });
+    const bool rigid = std::any_of(body_scene.keyframes.begin(), body_scene.keyframes.end(),
+                                   [](const auto& key) { return !key.translation.isZero() || !key.rotation.isZero(); });
     if (rigid) keys.push_back({});
     for (const KeyframeScene& key : body_scene.keyframes)
         if (rigid) keys.push_back({key.time, key.translation, key.rotation * (std::numbers::pi / 180)});

@@ -13,13 +13,13 @@ struct Body {
 
     std::string name;
     Kind kind = Kind::mesh;
-    TriangleMesh mesh;              ///< The surface [m]; for the other kinds a tessellation for files and pictures.
-    Vec3 center = Vec3::Zero();     ///< Centre (sphere), a point (plane), first end (capsule) [m].
-    Vec3 end = Vec3::UnitZ();       ///< Second end (capsule) [m].
-    Vec3 normal = Vec3::UnitZ();    ///< Unit normal out of the body (plane).
-    double radius = 0;              ///< Sphere, capsule [m].
-    double friction = automatic;    ///< Coulomb coefficient; NaN: the fabric's.
-    std::shared_ptr<const BodyMotion> motion;   ///< Null: it stands still.
+    TriangleMesh mesh;            ///< The surface [m]; for the other kinds a tessellation for files and pictures.
+    Vec3 center = Vec3::Zero();   ///< Centre (sphere), a point (plane), first end (capsule) [m].
+    Vec3 end = Vec3::UnitZ();     ///< Second end (capsule) [m].
+    Vec3 normal = Vec3::UnitZ();  ///< Unit normal out of the body (plane).
+    double radius = 0;            ///< Sphere, capsule [m].
+    double friction = automatic;  ///< Coulomb coefficient; NaN: the fabric's.
+    std::shared_ptr<const BodyMotion> motion;  ///< Null: it stands still.
 };
 
 /// The surface of a body at a time [s].
@@ -29,8 +29,8 @@ TriangleMesh body_mesh_at(const Body& body, double time);
 bool any_moves(const std::vector<Body>& bodies);
 
 /// Makes a body of a shape that needs no file: sphere, plane (drawn as a square, infinite for contact), capsule,
-/// cylinder, cone (both upright, closed meshes; `center` in the middle of the cylinder's axis, of the cone's base), torus
-/// (a mesh about `center`, its axis `normal`).
+/// cylinder, cone (both upright, closed meshes; `center` in the middle of the cylinder's axis, of the cone's base),
+/// torus (a mesh about `center`, its axis `normal`).
 /// @param index  position in Scene::bodies, for messages and for the name of a nameless body
 /// @throws InputError for a plane's normal or a capsule's axis of no length
 Body make_body(const BodyScene& body_scene, const Scene& scene, int index);
@@ -43,7 +43,7 @@ Body make_body(const BodyScene& body_scene, const Scene& scene, int index, const
 
 /// A pose that a body passes through: vertices as loaded, [m], z up.
 struct LoadedPose {
-    double time = 0;              ///< [s], > 0
+    double time = 0;  ///< [s], > 0
     std::vector<Vec3> vertices;
     bool smooth = false;
 };

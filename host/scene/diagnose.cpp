@@ -8,18 +8,18 @@
 #include <nlohmann/json.hpp>
 
 #include "host/mesh/self_intersections.hpp"
-#include "host/scene/plan.hpp"
 #include "host/render/picture.hpp"
+#include "host/scene/plan.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double smallest_good_angle = 10;   // [degrees]; below it a triangle's strain is read badly
+constexpr double smallest_good_angle = 10;  // [degrees]; below it a triangle's strain is read badly
 
 struct Finding {
     std::string kind, text;
-    std::vector<int> faces;   ///< Of the cloth that are involved, for the picture.
-    std::vector<IntersectingPair> pairs = {};   ///< That intersect; of a body the second index is that of its face.
+    std::vector<int> faces;                    ///< Of the cloth that are involved, for the picture.
+    std::vector<IntersectingPair> pairs = {};  ///< That intersect; of a body the second index is that of its face.
 };
 
 double smallest_angle(const Cloth& cloth, int face)
@@ -74,8 +74,8 @@ Finding find_crossed_cloth(const Cloth& cloth)
     Finding finding{"self_intersection", {}, {}, self_intersections(cloth.positions, cloth.faces)};
     note_faces(finding, true);
     if (!finding.pairs.empty())
-        finding.text = fmt::format("{} pairs of the cloth's triangles intersect, the first {} and {}", finding.pairs.size(),
-                                   finding.pairs.front()[0], finding.pairs.front()[1]);
+        finding.text = fmt::format("{} pairs of the cloth's triangles intersect, the first {} and {}",
+                                   finding.pairs.size(), finding.pairs.front()[0], finding.pairs.front()[1]);
     return finding;
 }
 
@@ -113,8 +113,7 @@ Finding find_odd_size(const Cloth& cloth)
         high = high.cwiseMax(x);
     }
     const double size = (high - low).norm();
-    if (size > 20 || size < 0.02)
-        finding.text = fmt::format("the cloth is {:.3g} m across: is its unit right?", size);
+    if (size > 20 || size < 0.02) finding.text = fmt::format("the cloth is {:.3g} m across: is its unit right?", size);
     return finding;
 }
 
@@ -141,8 +140,7 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
     const SceneModel model = build_scene_model(scene);
     check_memory(scene, make_plan(scene, model));
     std::vector<Finding> findings{find_penetrations(model.model), find_crossed_cloth(model.model.cloth),
-                                  find_bad_triangles(model.model.cloth),
-                                  find_odd_size(model.model.cloth)};
+                                  find_bad_triangles(model.model.cloth), find_odd_size(model.model.cloth)};
     for (const Body& body : model.model.bodies) findings.push_back(find_crossed_body(model.model.cloth, body));
     for (const std::string& warning : model.warnings) findings.push_back({"warning", warning, {}});
     std::erase_if(findings, [](const Finding& finding) { return finding.text.empty(); });
@@ -158,9 +156,9 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
         if (!finding.pairs.empty()) json["findings"].back()["pairs"] = finding.pairs;
     }
     if (findings.empty())
-        diagnosis.text = fmt::format("{}: nothing found ({} vertices, {} triangles, typical edge {:.1f} mm)\n",
-                                     scene.name, model.model.cloth.positions.size(),
-                                     model.model.cloth.faces.size(), 1000 * model.edge_length);
+        diagnosis.text =
+            fmt::format("{}: nothing found ({} vertices, {} triangles, typical edge {:.1f} mm)\n", scene.name,
+                        model.model.cloth.positions.size(), model.model.cloth.faces.size(), 1000 * model.edge_length);
     diagnosis.json = json.dump(2) + "\n";
     return diagnosis;
 }

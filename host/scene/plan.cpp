@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "host/run/progressive.hpp"
-#include "host/solver/terms/rules.hpp"
 #include "host/solver/state/springs.hpp"
+#include "host/solver/terms/rules.hpp"
 
 namespace selvage {
 namespace {
@@ -66,8 +66,8 @@ bool any_hysteresis(const SceneModel& model)
     return any_fabric(model, &Fabric::hysteresis_weft) || any_fabric(model, &Fabric::hysteresis_warp);
 }
 
-// Exactly one law of contact gets a strength. The cloth slides freely while it is sewn: friction would hold it where the
-// panels first touched the body.
+// Exactly one law of contact gets a strength. The cloth slides freely while it is sewn: friction would hold it where
+// the panels first touched the body.
 void set_contact(Params& params, const Scene& scene, const SceneModel& model, bool sewing)
 {
     const bool bodies = !model.model.bodies.empty() && scene.contact.body;
@@ -108,11 +108,12 @@ Params phase_params(const Scene& scene, const SceneModel& model, bool sewing)
                                                          : params.membrane.scale;
     strength = membrane;
     const bool bends = any_fabric(model, &Fabric::bending_weft) || any_fabric(model, &Fabric::bending_warp);
-    const bool bend_springs = scene.bending.model == "springs" ||
-                              (scene.bending.model == "automatic" && scene.membrane.model == "springs");
+    const bool bend_springs =
+        scene.bending.model == "springs" || (scene.bending.model == "automatic" && scene.membrane.model == "springs");
     const bool plates = scene.bending.model == "plate" || (scene.bending.model == "automatic" && !bend_springs);
-    (bend_springs ? params.spring.bend_scale : plates ? params.plate.scale : params.bending.scale) =
-        scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
+    (bend_springs ? params.spring.bend_scale
+     : plates     ? params.plate.scale
+                  : params.bending.scale) = scene.bending.model == "none" || !bends ? 0 : scene.bending.scale;
     // Sewing is not how a garment came to its shape: hysteresis would only keep the folds it left.
     const bool hysteresis = scene.bending.hysteresis && scene.bending.model != "none" && !sewing;
     params.bending_hysteresis.scale = hysteresis && any_hysteresis(model) ? 1 : 0;
@@ -231,7 +232,8 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
         if (rule.is_active(plan.phases.back().params))
             plan.active.push_back(std::string(rule.name));
         else
-            plan.skipped.push_back({std::string(rule.name), absence_of_contact(scene, !model.model.bodies.empty(), rule.name)});
+            plan.skipped.push_back(
+                {std::string(rule.name), absence_of_contact(scene, !model.model.bodies.empty(), rule.name)});
     const bool queries = plan.phases.back().queries_bodies;
     const bool queries_meshes = queries && std::any_of(model.model.bodies.begin(), model.model.bodies.end(),
                                                        [](const Body& body) { return body.kind == Body::Kind::mesh; });
@@ -264,7 +266,8 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
         plan.active.push_back("pin_motion");
 
     std::size_t body_bytes = 0;
-    for (const Body& body : model.model.bodies) body_bytes += body.mesh.faces.size() * 400 + (body.motion ? body.motion->bytes() : 0);
+    for (const Body& body : model.model.bodies)
+        body_bytes += body.mesh.faces.size() * 400 + (body.motion ? body.motion->bytes() : 0);
     for (const PhasePlan& phase : plan.phases)
         plan.peak_bytes = std::max(plan.peak_bytes, phase.field_bytes + phase.solver_bytes);
     plan.peak_bytes += model.model.cloth.positions.size() * 500 + body_bytes + (std::size_t(100) << 20);

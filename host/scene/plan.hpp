@@ -9,9 +9,9 @@ namespace selvage {
 
 /// A kernel that every evaluation of a phase launches.
 struct PlannedLaunch {
-    std::string name, items;    ///< Term or stage, and the kind of its items.
+    std::string name, items;  ///< Term or stage, and the kind of its items.
     int count = 0;
-    std::size_t bytes = 0;      ///< That its fields occupy.
+    std::size_t bytes = 0;  ///< That its fields occupy.
 };
 
 struct SkippedFeature {
@@ -20,22 +20,22 @@ struct SkippedFeature {
 
 /// What one phase of a run will do; plain data, made without running anything.
 struct PhasePlan {
-    std::string name;                       ///< "sew" or "drape".
+    std::string name;  ///< "sew" or "drape".
     Params params;
     bool joined = true;
     bool queries_bodies = false;
     std::vector<PlannedLaunch> launches;
-    std::size_t field_bytes = 0;            ///< State arrays.
-    std::size_t solver_bytes = 0;           ///< Matrix, vectors and coarser levels, estimated.
+    std::size_t field_bytes = 0;   ///< State arrays.
+    std::size_t solver_bytes = 0;  ///< Matrix, vectors and coarser levels, estimated.
 };
 
 struct RunPlan {
     std::vector<PhasePlan> phases;
-    std::vector<std::string> active;        ///< Terms and devices in use in any phase.
+    std::vector<std::string> active;  ///< Terms and devices in use in any phase.
     std::vector<SkippedFeature> skipped;
-    bool embree = false;                    ///< A ray tracing device is made, for bodies of meshes or the picture.
-    bool coarse_start = false;              ///< Coarser cloths are draped first.
-    std::size_t peak_bytes = 0;             ///< Of the phase that needs most, with meshes and queries.
+    bool embree = false;         ///< A ray tracing device is made, for bodies of meshes or the picture.
+    bool coarse_start = false;   ///< Coarser cloths are draped first.
+    std::size_t peak_bytes = 0;  ///< Of the phase that needs most, with meshes and queries.
 };
 
 /// Decides from the scene which terms run in which phase; what the scene lacks is not allocated and not launched.

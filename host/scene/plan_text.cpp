@@ -40,10 +40,10 @@ std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan
 
 std::string plan_text(const Scene& scene, const SceneModel& model, const RunPlan& plan)
 {
-    std::string text = fmt::format("{}: {} vertices, {} triangles in {} panels, {} seams, {} bodies, {} coarser levels\n",
-                                   scene.name, model.model.cloth.positions.size(), model.model.cloth.faces.size(),
-                                   model.model.cloth.panels.size(), model.model.cloth.seams.size(),
-                                   model.model.bodies.size(), model.model.coarser.size());
+    std::string text =
+        fmt::format("{}: {} vertices, {} triangles in {} panels, {} seams, {} bodies, {} coarser levels\n", scene.name,
+                    model.model.cloth.positions.size(), model.model.cloth.faces.size(), model.model.cloth.panels.size(),
+                    model.model.cloth.seams.size(), model.model.bodies.size(), model.model.coarser.size());
     for (const PhasePlan& phase : plan.phases) {
         text += fmt::format("\nphase {}: state {:.1f} MiB, linear solver about {:.1f} MiB\n", phase.name,
                             mebibytes(phase.field_bytes), mebibytes(phase.solver_bytes));

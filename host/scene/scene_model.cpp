@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/body_model.hpp"
 #include "host/garment/assemble.hpp"
 #include "host/garment/catalogue.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/model/transfer.hpp"
+#include "host/scene/body_model.hpp"
 #include "io/memory.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/pattern/pattern_json.hpp"
@@ -19,12 +19,12 @@
 namespace selvage {
 namespace {
 
-constexpr int coarsest_vertices = 300;   // factorising this costs less than a fine matrix product
+constexpr int coarsest_vertices = 300;  // factorising this costs less than a fine matrix product
 
 // A scene whose mesh alone could not be held is refused before it is made; the plan then counts exactly.
 constexpr double bytes_per_vertex = 3000;
 
-constexpr double sliver = 0.1;   // of a typical edge: triangles less high are told of
+constexpr double sliver = 0.1;  // of a typical edge: triangles less high are told of
 
 // A level sheet has nothing that tells it which way to fold: it starts off its plane by up to this part of its extent,
 // in a smooth pattern that does not depend on the mesh, so that finer meshes fold alike.
@@ -59,7 +59,7 @@ Cloth sheet_at(const Scene& scene, int index, int resolution)
     sheet.resolution = resolution;
     const std::string key = "sheet[" + std::to_string(index) + "]";
     PinsScene pins = scene.pins;
-    if (resolution != scene.sheets[index].resolution) pins.vertices.clear();   // indices are those of the finest mesh
+    if (resolution != scene.sheets[index].resolution) pins.vertices.clear();  // indices are those of the finest mesh
     Cloth cloth;
     if (sheet.shape == "mesh") {
         std::vector<Vec2> texture;
@@ -88,7 +88,7 @@ double ripple_at(const Vec2& x)
 {
     double sum = 0;
     for (int wave = 0; wave < ripple_waves; ++wave) {
-        const double angle = 2.399963 * (wave + 1);   // the golden angle
+        const double angle = 2.399963 * (wave + 1);  // the golden angle
         const double number = 2 * std::numbers::pi * (1 + 0.5 * wave);
         sum += std::cos(number * (x.x() * std::cos(angle) + x.y() * std::sin(angle)) + 1.7 * wave);
     }
@@ -106,7 +106,8 @@ void add_ripple(Cloth& cloth)
                                 .normalized();
         const double extent = 2 * std::sqrt(panel.rest_area / std::numbers::pi);
         for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v)
-            if (!held[v]) cloth.positions[v] += ripple * extent * ripple_at(cloth.panel_coordinates[v] / extent) * normal;
+            if (!held[v])
+                cloth.positions[v] += ripple * extent * ripple_at(cloth.panel_coordinates[v] / extent) * normal;
     }
 }
 
@@ -167,7 +168,8 @@ SceneModel build_scene_model(const Scene& scene)
     for (int i = 0; i < int(scene.sheets.size()); ++i) check_sheet_size(scene, i);
     result.model.cloth = cloth_at_level(scene, pattern, 0);
     // A fabric that no panel is made of must not decide which terms run.
-    for (const ClothPanel& panel : result.model.cloth.panels) result.model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
+    for (const ClothPanel& panel : result.model.cloth.panels)
+        result.model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
     result.model.bodies = build_bodies(scene);
     add_coarser_levels(scene, pattern, result.model);
     result.warnings = pattern.warnings;
@@ -177,9 +179,10 @@ SceneModel build_scene_model(const Scene& scene)
     result.edge_length = typical_edge(result.model.cloth);
     result.least_height = least_height(result.model.cloth);
     if (scene.contact.self && result.least_height < sliver * result.edge_length)
-        result.warnings.push_back(fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
-                                              "presses on cloth from less than that height only",
-                                              result.least_height, result.edge_length));
+        result.warnings.push_back(
+            fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
+                        "presses on cloth from less than that height only",
+                        result.least_height, result.edge_length));
     if (!scene.has_garment()) {
         add_ripple(result.model.cloth);
         for (Cloth& coarser : result.model.coarser) add_ripple(coarser);

@@ -11,9 +11,9 @@ namespace selvage {
 struct SceneModel {
     ClothModel model;
     std::vector<std::string> warnings;
-    bool sews = false;             ///< There are seams to close before draping.
-    double edge_length = 0.01;     ///< Typical rest edge of the finest cloth [m].
-    double least_height = 0.01;    ///< Of any triangle of the finest cloth at rest [m].
+    bool sews = false;           ///< There are seams to close before draping.
+    double edge_length = 0.01;   ///< Typical rest edge of the finest cloth [m].
+    double least_height = 0.01;  ///< Of any triangle of the finest cloth at rest [m].
 };
 
 /// Reads, meshes and places everything that a scene names.

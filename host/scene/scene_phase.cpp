@@ -9,7 +9,6 @@ constexpr std::size_t most_in_float = 500000;
 
 }  // namespace
 
-
 PhaseOptions phase_options(const Scene& scene, const SceneModel& model, const PhasePlan& plan)
 {
     PhaseOptions options;
@@ -42,7 +41,8 @@ std::string solve_precision(const Scene& scene, const Cloth& cloth)
 std::string integrator_of(const Scene& scene)
 {
     if (scene.solver.integrator != "automatic") return scene.solver.integrator;
-    // Cloth that folds on bodies takes BDF2 twice the iterations of implicit Euler; where the motion counts it is worth them.
+    // Cloth that folds on bodies takes BDF2 twice the iterations of implicit Euler; where the motion counts it is worth
+    // them.
     if (scene.solver.until != "equilibrium") return scene.bodies.empty() ? "bdf2" : "implicit_euler";
     // Where rest depends on the way there, or the steps are to follow an estimate of their error, the way is a motion.
     if (scene.bending.hysteresis || scene.solver.adaptive) return "implicit_euler";

@@ -14,8 +14,8 @@ SewingOptions sewing_options(const Scene& scene, const RunPlan& plan);
 std::string solve_precision(const Scene& scene, const Cloth& cloth);
 
 /// The integrator that moves the cloth while it drapes: solver.integrator, or what `bench work-precision` finds best:
-/// bdf2 for motions without bodies, implicit_euler with them; on the way to rest static where the way does not matter (no bodies and so no friction, no
-/// hysteresis), implicit_euler elsewhere.
+/// bdf2 for motions without bodies, implicit_euler with them; on the way to rest static where the way does not matter
+/// (no bodies and so no friction, no hysteresis), implicit_euler elsewhere.
 std::string integrator_of(const Scene& scene);
 
 }  // namespace selvage

@@ -12,11 +12,11 @@
 namespace selvage {
 namespace {
 
-constexpr double smallest_extent = 0.05, largest_extent = 5;   // [m]
+constexpr double smallest_extent = 0.05, largest_extent = 5;  // [m]
 
 struct SortedEdge {
     int low, high;
-    bool forward;   ///< The face runs from low to high.
+    bool forward;  ///< The face runs from low to high.
 };
 
 std::vector<SortedEdge> sorted_edges(const TriangleMesh& mesh)
@@ -138,14 +138,16 @@ void require_closed_body(const TriangleMesh& mesh, const std::string& file)
         std::string expected = "a closed surface";
         if (report.doubled_vertices > 0)
             expected += "; " + std::to_string(report.doubled_vertices) + " vertices lie on others: join them first";
-        throw InputError(place, "a body with holes: " + counted(report.boundary_edges, "open edge", "open edges") +
-                                    ", the first" + at(mesh, report.first_boundary_edge[0]),
+        throw InputError(place,
+                         "a body with holes: " + counted(report.boundary_edges, "open edge", "open edges") +
+                             ", the first" + at(mesh, report.first_boundary_edge[0]),
                          expected);
     }
     if (report.inconsistent_edges > 0)
-        throw InputError(place, "faces that disagree on the outside across " +
-                                    counted(report.inconsistent_edges, "edge", "edges") + ", the first" +
-                                    at(mesh, report.first_inconsistent_edge[0]),
+        throw InputError(place,
+                         "faces that disagree on the outside across " +
+                             counted(report.inconsistent_edges, "edge", "edges") + ", the first" +
+                             at(mesh, report.first_inconsistent_edge[0]),
                          "all faces counter-clockwise seen from outside");
     if (!(report.volume > 0))
         throw InputError(place, "faces that look inward (volume " + rounded_text(report.volume) + " m^3)",

@@ -10,16 +10,16 @@ namespace selvage {
 struct BodyMeshReport {
     int zero_area_faces = 0;
     int first_zero_area_face = -1;
-    int boundary_edges = 0;                        ///< Edges with one face: the rims of holes.
+    int boundary_edges = 0;  ///< Edges with one face: the rims of holes.
     std::array<int, 2> first_boundary_edge{-1, -1};
-    int nonmanifold_edges = 0;                     ///< Edges with more than two faces.
+    int nonmanifold_edges = 0;  ///< Edges with more than two faces.
     std::array<int, 2> first_nonmanifold_edge{-1, -1};
-    int inconsistent_edges = 0;                    ///< Edges whose two faces run the same way along them.
+    int inconsistent_edges = 0;  ///< Edges whose two faces run the same way along them.
     std::array<int, 2> first_inconsistent_edge{-1, -1};
-    int doubled_vertices = 0;                      ///< Vertices at the very place of another.
-    double volume = 0;                             ///< Signed [m^3]; negative: the faces look inward.
-    double extent = 0;                             ///< Longest side of the bounding box [m].
-    bool size_looks_wrong = false;                 ///< Extent outside 0.05 to 5 m, as after a slip of units.
+    int doubled_vertices = 0;       ///< Vertices at the very place of another.
+    double volume = 0;              ///< Signed [m^3]; negative: the faces look inward.
+    double extent = 0;              ///< Longest side of the bounding box [m].
+    bool size_looks_wrong = false;  ///< Extent outside 0.05 to 5 m, as after a slip of units.
 };
 
 /// Examines a mesh as a body.

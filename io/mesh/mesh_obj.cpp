@@ -7,17 +7,14 @@
 #include <string_view>
 
 #include "io/atomic_file.hpp"
-#include "io/mesh/axes.hpp"
 #include "io/errors.hpp"
 #include "io/file_text.hpp"
+#include "io/mesh/axes.hpp"
 
 namespace selvage {
 namespace {
 
-bool is_space(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r';
-}
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 // Takes the next word off a line; empty at its end.
 std::string_view take_word(std::string_view& line)
@@ -46,7 +43,7 @@ std::string quoted(std::string_view text)
 
 struct Corner {
     int vertex = 0;
-    int texture = -1;   ///< -1: none.
+    int texture = -1;  ///< -1: none.
 };
 
 class ObjReader {
@@ -159,8 +156,8 @@ Corner ObjReader::read_corner(std::string_view word)
     if (!word.empty() && word.front() == '/') {
         word.remove_prefix(1);
         if (!word.empty() && word.front() != '/')
-            corner.texture = read_index(word, int(texture_.size()), "texture coordinate", largest_texture_,
-                                        largest_texture_line_);
+            corner.texture =
+                read_index(word, int(texture_.size()), "texture coordinate", largest_texture_, largest_texture_line_);
         // What follows is a normal's index, which is of no use here.
         if (!word.empty() && word.front() == '/')
             word.remove_prefix(std::min(word.find_first_not_of("-0123456789", 1), word.size()));
@@ -259,7 +256,8 @@ std::vector<std::string> sequence_files(const std::string& pattern, const InputP
     const std::string head = name.substr(0, star), tail = name.substr(star + 1);
     std::vector<std::string> files;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(whole.has_parent_path() ? whole.parent_path() : fs::path("."), error)) {
+    for (const auto& entry :
+         fs::directory_iterator(whole.has_parent_path() ? whole.parent_path() : fs::path("."), error)) {
         const std::string found = entry.path().filename().string();
         if (found.size() + 1 >= name.size() && found.starts_with(head) && found.ends_with(tail))
             files.push_back(entry.path().string());

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/body_mesh.hpp"
 #include "io/errors.hpp"
 #include "io/geometry.hpp"
+#include "io/mesh/body_mesh.hpp"
 
 namespace selvage {
 
@@ -31,9 +31,9 @@ int obj_face_line(const std::string& path, int face);
 /// An object of an OBJ file; indices count within it.
 struct ObjObject {
     std::string name;
-    std::span<const Vec3> positions;       ///< [m]
+    std::span<const Vec3> positions;  ///< [m]
     std::span<const Face> faces;
-    std::span<const Vec2> texture = {};    ///< Empty, or one per position.
+    std::span<const Vec2> texture = {};  ///< Empty, or one per position.
 };
 
 /// Writes an OBJ file under a temporary name and renames it.

@@ -64,10 +64,7 @@ void JsonCursor::refuse_as(std::string_view found, std::string_view expected, st
     throw InputError(place(), found, expected, nearest);
 }
 
-bool JsonCursor::has(const std::string& key) const
-{
-    return value_->is_object() && value_->contains(key);
-}
+bool JsonCursor::has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
 
 JsonCursor JsonCursor::at(const std::string& key) const
 {

@@ -15,16 +15,16 @@ struct PatternEdge {
     int end = 0;
     EdgeCurve curve = EdgeCurve::straight;
     std::array<Vec2, 2> control{Vec2::Zero(), Vec2::Zero()};  ///< Bezier control points, panel coordinates [m].
-    double radius = 0;        ///< Arc radius [m]; arc only.
-    bool large_arc = false;   ///< As in an SVG path; arc only.
-    bool right = false;       ///< Sweep flag as in an SVG path; arc only.
+    double radius = 0;                                        ///< Arc radius [m]; arc only.
+    bool large_arc = false;                                   ///< As in an SVG path; arc only.
+    bool right = false;                                       ///< Sweep flag as in an SVG path; arc only.
 };
 
 /// Rolls the flat panel onto a cylinder before it is placed, without stretching it.
 struct PanelWrap {
-    double radius = 0;   ///< Cylinder radius [m]; the axis runs along the panel's y, above its line x = x0.
-    double x0 = 0;       ///< Panel x [m] that stays in place (touches the flat plane z = 0).
-    bool behind = false; ///< False: the cylinder bends towards -z (edges move to -z); true: towards +z.
+    double radius = 0;    ///< Cylinder radius [m]; the axis runs along the panel's y, above its line x = x0.
+    double x0 = 0;        ///< Panel x [m] that stays in place (touches the flat plane z = 0).
+    bool behind = false;  ///< False: the cylinder bends towards -z (edges move to -z); true: towards +z.
 };
 
 /// A flat piece of cloth: outline in the panel's own plane and its place in the scene.
@@ -36,7 +36,7 @@ struct PatternPanel {
     Vec3 translation = Vec3::Zero();  ///< [m], in the scene's frame.
     Mat3 rotation = Mat3::Identity();
     std::optional<PanelWrap> wrap;
-    std::string fabric;               ///< Empty: the garment's fabric.
+    std::string fabric;  ///< Empty: the garment's fabric.
 };
 
 struct StitchSide {
@@ -55,7 +55,7 @@ struct Pattern {
     std::string name;
     std::vector<PatternPanel> panels;
     std::vector<PatternStitch> stitches;
-    std::vector<std::string> warnings;   ///< What the reader found odd but could use.
+    std::vector<std::string> warnings;  ///< What the reader found odd but could use.
 };
 
 }  // namespace selvage

@@ -12,10 +12,7 @@ constexpr double shortest_edge = 1e-5;   // [m]
 constexpr double farthest_control = 10;  // [m]
 constexpr double smallest_area = 1e-8;   // [m^2]
 
-const Vec2& corner(const PatternPanel& panel, int vertex)
-{
-    return panel.vertices[std::size_t(vertex)];
-}
+const Vec2& corner(const PatternPanel& panel, int vertex) { return panel.vertices[std::size_t(vertex)]; }
 
 void read_endpoints(const JsonCursor& cursor, const PatternPanel& panel, PatternEdge& edge)
 {
@@ -37,8 +34,8 @@ Vec2 control_point(const JsonCursor& cursor, const PatternUnits& units, const Pa
     const Vec2 given = cursor.vector2("a control point [u, v]");
     const Vec2 start = corner(panel, edge.start), along = corner(panel, edge.end) - start;
     const Vec2 across(-along.y(), along.x());
-    const Vec2 point = units.relative_controls ? Vec2(start + given.x() * along + given.y() * across)
-                                               : Vec2(units.scale * given);
+    const Vec2 point =
+        units.relative_controls ? Vec2(start + given.x() * along + given.y() * across) : Vec2(units.scale * given);
     if (!((point - start).norm() <= farthest_control))
         cursor.refuse("a control point within " + number_text(farthest_control) + " m of its edge");
     return point;
@@ -100,8 +97,7 @@ void check_loop(const JsonCursor& cursor, const PatternPanel& panel)
         if (edge.end != panel.edges[std::size_t(next)].start)
             cursor.at(next).refuse_as("an outline that is open: edge " + std::to_string(k) + " ends at vertex " +
                                           std::to_string(edge.end) + " and edge " + std::to_string(next) +
-                                          " starts at vertex " +
-                                          std::to_string(panel.edges[std::size_t(next)].start),
+                                          " starts at vertex " + std::to_string(panel.edges[std::size_t(next)].start),
                                       "a closed loop in which each edge starts where the one before ends");
         if (++visits[std::size_t(edge.start)] > 1)
             cursor.at(k).refuse_as("vertex " + std::to_string(edge.start) + " a second time",

@@ -9,8 +9,8 @@ namespace selvage {
 
 /// How a pattern file writes lengths and control points.
 struct PatternUnits {
-    double scale = 0.01;             ///< Metres per unit of the file.
-    bool relative_controls = true;   ///< Control points count along and across the edge, in edge lengths.
+    double scale = 0.01;            ///< Metres per unit of the file.
+    bool relative_controls = true;  ///< Control points count along and across the edge, in edge lengths.
 };
 
 /// Reads the closed outline of a panel whose vertices are known.

@@ -7,17 +7,17 @@
 
 #include <Eigen/Geometry>
 
-#include "io/mesh/axes.hpp"
 #include "io/file_text.hpp"
-#include "io/pattern/json_cursor.hpp"
+#include "io/mesh/axes.hpp"
 #include "io/number_text.hpp"
+#include "io/pattern/json_cursor.hpp"
 #include "io/pattern/pattern_edges.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double largest_panel = 5, smallest_panel = 0.005;   // [m]
-constexpr double largest_distance = 100;                      // of a panel from the origin [m]
+constexpr double largest_panel = 5, smallest_panel = 0.005;  // [m]
+constexpr double largest_distance = 100;                     // of a panel from the origin [m]
 
 std::string unit_hint(double extent_in_units)
 {
@@ -49,7 +49,7 @@ private:
     const GarmentScene& garment_;
     PatternUnits units_;
     Pattern pattern_;
-    std::map<std::pair<int, int>, std::string> stitched_;   ///< Panel and edge to the stitch that has it.
+    std::map<std::pair<int, int>, std::string> stitched_;  ///< Panel and edge to the stitch that has it.
 };
 
 Pattern PatternReader::read()
@@ -125,9 +125,9 @@ void PatternReader::read_vertices(const JsonCursor& cursor, PatternPanel& panel)
     }
     const double extent = (high - low).maxCoeff();
     if (extent >= smallest_panel && extent <= largest_panel) return;
-    cursor.refuse_as("a panel that measures " + rounded_text(extent) + " m with units_in_meter = " +
-                         rounded_text(1 / units_.scale),
-                     "a panel of " + range_text(smallest_panel, largest_panel, "m"), unit_hint(extent / units_.scale));
+    cursor.refuse_as(
+        "a panel that measures " + rounded_text(extent) + " m with units_in_meter = " + rounded_text(1 / units_.scale),
+        "a panel of " + range_text(smallest_panel, largest_panel, "m"), unit_hint(extent / units_.scale));
 }
 
 void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel)
@@ -178,8 +178,8 @@ void PatternReader::claim_edge(StitchSide side, const JsonCursor& cursor, const 
 {
     const auto [other, is_free] = stitched_.insert({{side.panel, side.edge}, stitch});
     if (is_free) return;
-    cursor.refuse_as("edge " + std::to_string(side.edge) + " of `" +
-                         pattern_.panels[std::size_t(side.panel)].name + "`, which is already in " + other->second,
+    cursor.refuse_as("edge " + std::to_string(side.edge) + " of `" + pattern_.panels[std::size_t(side.panel)].name +
+                         "`, which is already in " + other->second,
                      "an edge that is in no other stitch");
 }
 

@@ -17,14 +17,12 @@ std::string member(const char* group, const std::string& name) { return std::str
 Checkpoint read_groups(const Hdf5File& file)
 {
     Checkpoint checkpoint;
-    for (const std::string& name : file.members(reals))
-        checkpoint.reals[name] = file.read_reals(member(reals, name));
+    for (const std::string& name : file.members(reals)) checkpoint.reals[name] = file.read_reals(member(reals, name));
     for (const std::string& name : file.members(integers)) {
         const std::vector<std::int64_t> values = file.read_integers(member(integers, name));
         checkpoint.integers[name].assign(values.begin(), values.end());
     }
-    for (const std::string& name : file.members(words))
-        checkpoint.words[name] = file.text(member(words, name), "text");
+    for (const std::string& name : file.members(words)) checkpoint.words[name] = file.text(member(words, name), "text");
     return checkpoint;
 }
 
@@ -34,8 +32,8 @@ void protect(Hdf5File& file, const std::string& name, hid_t type, std::size_t si
         file.make_dataset(name, type, {0});
         return;
     }
-    const Hdf5Id dataset =
-        file.make_dataset(name, type, {size}, {.compressed = false, .growing = false, .chunk = {size}, .checked = true});
+    const Hdf5Id dataset = file.make_dataset(name, type, {size},
+                                             {.compressed = false, .growing = false, .chunk = {size}, .checked = true});
     require_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
 }
 

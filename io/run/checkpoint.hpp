@@ -9,7 +9,7 @@ namespace selvage {
 struct Checkpoint {
     std::map<std::string, std::vector<double>> reals;
     std::map<std::string, std::vector<int>> integers;
-    std::map<std::string, std::string> words;   ///< Without zero bytes.
+    std::map<std::string, std::string> words;  ///< Without zero bytes.
 };
 
 /// Writes the checkpoint under a temporary name, brings it to the disk and renames it.

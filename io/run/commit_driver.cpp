@@ -25,9 +25,9 @@ struct HeldWrite {
 struct CommitFile {
     H5FD_t base;
     int descriptor;
-    haddr_t allocated;   ///< End of the space that HDF5 has handed out.
-    haddr_t size;        ///< Length of the file on disk.
-    haddr_t committed;   ///< Bytes from here on are not referred to by anything on disk.
+    haddr_t allocated;  ///< End of the space that HDF5 has handed out.
+    haddr_t size;       ///< Length of the file on disk.
+    haddr_t committed;  ///< Bytes from here on are not referred to by anything on disk.
     std::map<haddr_t, HeldWrite> held;
 };
 
@@ -137,8 +137,7 @@ bool write_node(CommitFile& file, const Change& change)
     if (same_node && ChunkNode::children(change.bytes) >= ChunkNode::children(change.old)) {
         const std::size_t old_used = ChunkNode::used(change.old);
         return write_span(file, change, old_used, change.bytes.size()) &&
-               write_span(file, change, 0, ChunkNode::header) &&
-               write_span(file, change, ChunkNode::header, old_used);
+               write_span(file, change, 0, ChunkNode::header) && write_span(file, change, ChunkNode::header, old_used);
     }
     const std::size_t used = ChunkNode::used(change.bytes);
     return write_span(file, change, 0, used) && write_span(file, change, used, change.bytes.size());

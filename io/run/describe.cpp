@@ -51,10 +51,12 @@ std::string describe_file(const std::string& path, bool json)
                                    held["version"].get<std::string>(), held["bytes"].get<double>() / 1e6);
     text += fmt::format("frames     {}", frame_count);
     if (frame_count > 0)
-        text += fmt::format(", {:.4g} s to {:.4g} s", held["first_time_s"].get<double>(), held["last_time_s"].get<double>());
+        text += fmt::format(", {:.4g} s to {:.4g} s", held["first_time_s"].get<double>(),
+                            held["last_time_s"].get<double>());
     text += fmt::format("\npoints     {}\ntriangles  {}\nseam pairs {}\npanels     {}\n", held["points"].get<int>(),
                         held["triangles"].get<int>(), held["seam_pairs"].get<int>(), joined(held["panels"]));
-    text += grid > 0 ? fmt::format("positions  rounded to {:.3g} m\n", grid) : "positions  single precision, not rounded\n";
+    text +=
+        grid > 0 ? fmt::format("positions  rounded to {:.3g} m\n", grid) : "positions  single precision, not rounded\n";
     return text;
 }
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "io/run/commit_driver.hpp"
 #include "io/errors.hpp"
+#include "io/run/commit_driver.hpp"
 
 namespace selvage {
 namespace {
@@ -166,7 +166,8 @@ std::vector<double> Hdf5File::read_reals(const std::string& name) const
     for (const hsize_t extent : shape(name)) count *= extent;
     std::vector<double> values(count);
     if (count > 0)
-        require_hdf5(H5Dread(open_dataset(name), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+        require_hdf5(H5Dread(open_dataset(name), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                     name);
     return values;
 }
 

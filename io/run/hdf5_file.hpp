@@ -35,10 +35,10 @@ void require_hdf5(herr_t status, std::string_view what);
 
 /// How a dataset is stored; an empty `chunk` means contiguous, or one chunk if compressed.
 struct Hdf5Storage {
-    bool compressed = false;           ///< Shuffle and gzip 1.
-    bool growing = false;              ///< The first dimension is unlimited.
+    bool compressed = false;  ///< Shuffle and gzip 1.
+    bool growing = false;     ///< The first dimension is unlimited.
     std::vector<hsize_t> chunk;
-    bool checked = false;              ///< With a checksum per chunk: damage is found when reading.
+    bool checked = false;  ///< With a checksum per chunk: damage is found when reading.
 };
 
 enum class Hdf5Access { create, read, append };
@@ -52,12 +52,12 @@ public:
 
     const std::string& path() const { return path_; }
     hid_t id() const { return file_; }
-    bool exists(const std::string& object) const;   ///< Every link of the path exists.
+    bool exists(const std::string& object) const;  ///< Every link of the path exists.
     void flush();
     void close() { file_.reset(); }
 
     void make_group(const std::string& group);
-    void link(const std::string& target, const std::string& name);        ///< A second name of the same object.
+    void link(const std::string& target, const std::string& name);  ///< A second name of the same object.
     void link_softly(const std::string& target, const std::string& name);
 
     /// @param file_type  number type in the file
@@ -77,15 +77,15 @@ public:
 
     // Attributes; a text is UTF-8 of variable length unless said otherwise.
     void set_integers(const std::string& object, const char* name, std::span<const std::int64_t> values);
-    void set_integer(const std::string& object, const char* name, std::int64_t value);   ///< Scalar; overwrites.
+    void set_integer(const std::string& object, const char* name, std::int64_t value);  ///< Scalar; overwrites.
     void set_real(const std::string& object, const char* name, double value);
     void set_text(const std::string& object, const char* name, const std::string& text);
-    void set_fixed_text(const std::string& object, const char* name, const std::string& text);   ///< ASCII.
+    void set_fixed_text(const std::string& object, const char* name, const std::string& text);  ///< ASCII.
     void set_texts(const std::string& object, const char* name, const std::vector<std::string>& texts);
     std::int64_t integer(const std::string& object, const char* name) const;
     double real(const std::string& object, const char* name) const;
     std::string text(const std::string& object, const char* name) const;
-    std::vector<std::string> texts(const std::string& object, const char* name) const;   ///< Empty if absent.
+    std::vector<std::string> texts(const std::string& object, const char* name) const;  ///< Empty if absent.
 
 private:
     Hdf5Id open_object(const std::string& object) const;

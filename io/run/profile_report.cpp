@@ -49,17 +49,22 @@ std::vector<int> tree_order(const ProfileReport& report)
 std::string machine_lines(const ProfileReport& report)
 {
     const MachineInfo& m = report.machine;
-    return fmt::format("selvage {}, {}, {}\n{}\n{}, {} cores, {} threads, {:.1f} GiB, copies {:.2f} GB/s\n\n", m.version,
-                       m.compiler, m.build_type, m.flags, m.cpu_name, m.cores, report.threads,
+    return fmt::format("selvage {}, {}, {}\n{}\n{}, {} cores, {} threads, {:.1f} GiB, copies {:.2f} GB/s\n\n",
+                       m.version, m.compiler, m.build_type, m.flags, m.cpu_name, m.cores, report.threads,
                        double(m.memory_bytes) / (1 << 30), 1e-9 * report.copy_bytes_per_second);
 }
 
 nlohmann::ordered_json machine_json(const ProfileReport& report)
 {
     const MachineInfo& m = report.machine;
-    return {{"version", m.version},       {"compiler", m.compiler}, {"flags", m.flags},
-            {"build_type", m.build_type}, {"cpu_name", m.cpu_name}, {"num_cpus", m.cores},
-            {"threads", report.threads},  {"memory_bytes", m.memory_bytes},
+    return {{"version", m.version},
+            {"compiler", m.compiler},
+            {"flags", m.flags},
+            {"build_type", m.build_type},
+            {"cpu_name", m.cpu_name},
+            {"num_cpus", m.cores},
+            {"threads", report.threads},
+            {"memory_bytes", m.memory_bytes},
             {"copy_bytes_per_second", report.copy_bytes_per_second}};
 }
 
@@ -76,30 +81,37 @@ std::string profile_table(const ProfileReport& report)
                             std::string(2 * std::size_t(row.depth), ' ') + row.name, row.calls, row.total_s, row.self_s,
                             1e3 * row.p50_s, 1e3 * row.p95_s, 100 * row.busy_s / (row.total_s * report.threads));
         if (row.bytes > 0)
-            text += fmt::format(" {:>7.2f} {:>6.0f}%", 1e-9 * double(row.bytes) / row.total_s, 100 * copy_fraction(report, row));
+            text += fmt::format(" {:>7.2f} {:>6.0f}%", 1e-9 * double(row.bytes) / row.total_s,
+                                100 * copy_fraction(report, row));
         if (row.flops > 0) text += fmt::format(" {:>8.2f}", 1e-9 * double(row.flops) / row.total_s);
         text += '\n';
     }
-    return text + "busy: time in shared tasks over time and threads; of copy: bytes that must move, over seconds, against "
-                  "the machine's copy speed (above 100 %: from the caches)\n";
+    return text +
+           "busy: time in shared tasks over time and threads; of copy: bytes that must move, over seconds, against "
+           "the machine's copy speed (above 100 %: from the caches)\n";
 }
 
 void write_chrome_trace(const std::string& path, const ProfileReport& report)
 {
     nlohmann::ordered_json about = machine_json(report);
-    std::string text = "{\"displayTimeUnit\": \"ms\",\n\"traceEvents\": [\n"
-                       "{\"ph\": \"M\", \"name\": \"process_name\", \"pid\": 1, \"tid\": 0, \"args\": {\"name\": \"selvage\"}}";
+    std::string text =
+        "{\"displayTimeUnit\": \"ms\",\n\"traceEvents\": [\n"
+        "{\"ph\": \"M\", \"name\": \"process_name\", \"pid\": 1, \"tid\": 0, \"args\": {\"name\": \"selvage\"}}";
     for (std::size_t t = 0; t < report.tracks.size(); ++t) {
         const ProfileTrack& track = report.tracks[t];
-        text += fmt::format(",\n{{\"ph\": \"M\", \"name\": \"thread_name\", \"pid\": 1, \"tid\": {}, \"args\": {{\"name\": {}}}}}",
-                            t, nlohmann::json(track.thread).dump());
+        text += fmt::format(
+            ",\n{{\"ph\": \"M\", \"name\": \"thread_name\", \"pid\": 1, \"tid\": {}, \"args\": {{\"name\": {}}}}}", t,
+            nlohmann::json(track.thread).dump());
         if (track.left_out > 0)
-            about["left_out"].push_back({{"thread", track.thread}, {"events", track.left_out}, {"shorter_than_s", track.shortest_s}});
+            about["left_out"].push_back(
+                {{"thread", track.thread}, {"events", track.left_out}, {"shorter_than_s", track.shortest_s}});
         for (const ProfileEvent& event : track.events)
-            text += fmt::format(",\n{{\"ph\": \"X\", \"name\": {}, \"cat\": \"{}\", \"pid\": 1, \"tid\": {}, \"ts\": {}.{:03}, \"dur\": {}.{:03}}}",
-                                nlohmann::json(report.rows[std::size_t(event.row)].name).dump(), event.task ? "task" : "phase",
-                                t, event.begin / 1000, event.begin % 1000, (event.end - event.begin) / 1000,
-                                (event.end - event.begin) % 1000);
+            text += fmt::format(
+                ",\n{{\"ph\": \"X\", \"name\": {}, \"cat\": \"{}\", \"pid\": 1, \"tid\": {}, \"ts\": {}.{:03}, "
+                "\"dur\": {}.{:03}}}",
+                nlohmann::json(report.rows[std::size_t(event.row)].name).dump(), event.task ? "task" : "phase", t,
+                event.begin / 1000, event.begin % 1000, (event.end - event.begin) / 1000,
+                (event.end - event.begin) % 1000);
     }
     write_file_atomically(path, text + "\n],\n\"otherData\": " + about.dump() + "}\n");
 }
@@ -113,7 +125,8 @@ void write_profile(const std::string& run_path, const ProfileReport& report)
     for (int r = 0; r < int(report.rows.size()); ++r) names.push_back(path_of(report, r));
     file.set_texts(group, "phase", names);
     const auto add = [&](const char* name, auto ProfileRow::*member) {
-        using Stored = std::conditional_t<std::is_integral_v<std::decay_t<decltype(ProfileRow{}.*member)>>, std::int64_t, double>;
+        using Stored =
+            std::conditional_t<std::is_integral_v<std::decay_t<decltype(ProfileRow{}.*member)>>, std::int64_t, double>;
         std::vector<Stored> values;
         for (const ProfileRow& row : report.rows) values.push_back(Stored(row.*member));
         file.write(group + "/" + name, std::is_same_v<Stored, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE, {values.size()},

@@ -10,20 +10,20 @@ namespace selvage {
 /// What one phase of a run cost, or a part of a phase.
 struct ProfileRow {
     std::string name;
-    int parent = -1, depth = 0;        ///< Row of the phase that it is part of; a row stands after its parent.
+    int parent = -1, depth = 0;  ///< Row of the phase that it is part of; a row stands after its parent.
     std::int64_t calls = 0;
-    std::int64_t launches = 0;         ///< Of work that is shared among threads, without those of its parts.
-    double total_s = 0, self_s = 0;    ///< Self: without the parts below it.
-    double p50_s = 0, p95_s = 0;       ///< Of one call.
-    double busy_s = 0;                 ///< In tasks of all threads, parts included.
-    std::int64_t bytes = 0, flops = 0; ///< That it must move and compute, over all calls; 0: not known.
+    std::int64_t launches = 0;          ///< Of work that is shared among threads, without those of its parts.
+    double total_s = 0, self_s = 0;     ///< Self: without the parts below it.
+    double p50_s = 0, p95_s = 0;        ///< Of one call.
+    double busy_s = 0;                  ///< In tasks of all threads, parts included.
+    std::int64_t bytes = 0, flops = 0;  ///< That it must move and compute, over all calls; 0: not known.
 };
 
 /// A span on the track of one thread, [ns] since the start.
 struct ProfileEvent {
     std::int64_t begin = 0, end = 0;
     int row = 0;
-    bool task = false;                 ///< Work that was shared among threads; false: the phase itself.
+    bool task = false;  ///< Work that was shared among threads; false: the phase itself.
 };
 
 struct ProfileTrack {

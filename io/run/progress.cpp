@@ -6,15 +6,15 @@
 #include <cstring>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include "io/errors.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double live_interval = 0.2, plain_interval = 2;   // [s]
+constexpr double live_interval = 0.2, plain_interval = 2;  // [s]
 constexpr std::size_t trend_samples = 200, least_samples = 8;
 
 nlohmann::ordered_json number(double value)
@@ -104,7 +104,8 @@ void ProgressReport::write_line(const ProgressState& state, double wall, double 
                                          {"eta_s", number(seconds_left)},
                                          {"frames", state.frames},
                                          {"wall_s", number(wall)}};
-    std::fputs((line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n").c_str(), file_.get());
+    std::fputs((line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n").c_str(),
+               file_.get());
     std::fflush(file_.get());
 }
 
@@ -115,7 +116,7 @@ void ProgressReport::show(const ProgressState& state, double wall, double second
     line += "  wall " + duration(wall);
     line += "  ETA " + (std::isfinite(seconds_left) ? duration(seconds_left) : std::string("-"));
     if (terminal_) {
-        std::fprintf(stderr, "\r\x1b[K%s", line.c_str());   // Erases the rest of the old line.
+        std::fprintf(stderr, "\r\x1b[K%s", line.c_str());  // Erases the rest of the old line.
         live_line_ = true;
     } else {
         std::fprintf(stderr, "%s\n", line.c_str());

@@ -10,19 +10,19 @@ namespace selvage {
 
 /// Where a run stands.
 struct ProgressState {
-    std::string phase;            ///< Such as `sewing` or `draping`.
-    double time = 0;              ///< Simulated [s].
+    std::string phase;  ///< Such as `sewing` or `draping`.
+    double time = 0;    ///< Simulated [s].
     long step = 0;
-    double residual = std::numeric_limits<double>::quiet_NaN();   ///< Relative force residual [1]; NaN: unknown.
-    int frames = 0;               ///< Written so far.
+    double residual = std::numeric_limits<double>::quiet_NaN();  ///< Relative force residual [1]; NaN: unknown.
+    int frames = 0;                                              ///< Written so far.
 };
 
 struct ProgressOptions {
-    std::string path;             ///< progress.jsonl; empty: no file.
-    bool append = false;          ///< Go on with the file instead of starting it anew.
-    bool quiet = false;           ///< Nothing on stderr.
-    double end_time = std::numeric_limits<double>::infinity();   ///< Simulated [s]; infinite: run to equilibrium.
-    double tolerance = 0;         ///< Residual at which a run to equilibrium ends.
+    std::string path;                                           ///< progress.jsonl; empty: no file.
+    bool append = false;                                        ///< Go on with the file instead of starting it anew.
+    bool quiet = false;                                         ///< Nothing on stderr.
+    double end_time = std::numeric_limits<double>::infinity();  ///< Simulated [s]; infinite: run to equilibrium.
+    double tolerance = 0;                                       ///< Residual at which a run to equilibrium ends.
 };
 
 /// Estimates the wall time that is left.
@@ -34,7 +34,7 @@ public:
 
     /// @param wall  wall time since the start [s]
     void add(double wall, const ProgressState& state);
-    void restart() { samples_.clear(); }   ///< Forgets the past, as when another phase begins.
+    void restart() { samples_.clear(); }  ///< Forgets the past, as when another phase begins.
 
     /// Seconds left, or NaN while no trend can be seen. With an end time: from the simulated time per wall time;
     /// else from a straight line through the logarithm of the residual over the recent past.
@@ -55,7 +55,7 @@ public:
     explicit ProgressReport(const ProgressOptions& options);
     ProgressReport(const ProgressReport&) = delete;
     ProgressReport& operator=(const ProgressReport&) = delete;
-    ~ProgressReport();   ///< Ends the live line.
+    ~ProgressReport();  ///< Ends the live line.
 
     /// Adds a line to the file; shows the state on a terminal at most 5 times a second, otherwise every 2 s, and
     /// at once when a phase begins.
@@ -75,7 +75,7 @@ private:
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
     std::chrono::steady_clock::time_point start_;
     std::string phase_;
-    double shown_at_;   ///< Wall time since the start [s].
+    double shown_at_;  ///< Wall time since the start [s].
     bool terminal_, live_line_ = false;
 };
 

@@ -88,11 +88,16 @@ void add_state(Json& json, const RunSummary& summary)
 std::string status_name(RunStatus status)
 {
     switch (status) {
-    case RunStatus::converged: return "converged";
-    case RunStatus::finished: return "finished";
-    case RunStatus::time_limit: return "time_limit";
-    case RunStatus::diverged: return "diverged";
-    case RunStatus::interrupted: return "interrupted";
+        case RunStatus::converged:
+            return "converged";
+        case RunStatus::finished:
+            return "finished";
+        case RunStatus::time_limit:
+            return "time_limit";
+        case RunStatus::diverged:
+            return "diverged";
+        case RunStatus::interrupted:
+            return "interrupted";
     }
     return "";
 }

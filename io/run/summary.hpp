@@ -17,8 +17,8 @@ struct KernelUse {
     std::string name;
     std::int64_t calls = 0;
     double seconds = 0;
-    std::int64_t items = 0;   ///< Over all calls.
-    std::int64_t bytes = 0;   ///< Read and written over all calls.
+    std::int64_t items = 0;  ///< Over all calls.
+    std::int64_t bytes = 0;  ///< Read and written over all calls.
 };
 
 struct SkippedPart {
@@ -28,24 +28,24 @@ struct SkippedPart {
 
 struct PanelFit {
     std::string name;
-    double area_error;       ///< Relative change of area against the flat panel.
-    double boundary_error;   ///< Relative change of boundary length.
+    double area_error;      ///< Relative change of area against the flat panel.
+    double boundary_error;  ///< Relative change of boundary length.
 };
 
 /// One of the coarser cloths that were draped first.
 struct CoarseUse {
     int vertices = -1, newton_iterations = -1, linear_iterations = -1;
     double residual, seconds;
-    int intersections = 0;   ///< Of the shape carried over from it.
-    bool used = true;        ///< False: it diverged (no residual), or its shape passes through itself on the finer mesh.
+    int intersections = 0;  ///< Of the shape carried over from it.
+    bool used = true;       ///< False: it diverged (no residual), or its shape passes through itself on the finer mesh.
 };
 
 /// How an explicit integrator's steps stood to its stability limit; NaN: no limit.
 struct StabilityUse {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    double asked = unknown;   ///< solver.step [s]
-    double limit = unknown;   ///< The lowest that was met [s].
-    double taken = unknown;   ///< The shortest step [s].
+    double asked = unknown;  ///< solver.step [s]
+    double limit = unknown;  ///< The lowest that was met [s].
+    double taken = unknown;  ///< The shortest step [s].
 };
 
 /// What summary.json says. A number that is not known is NaN or negative (counts) and becomes null.
@@ -53,30 +53,30 @@ struct RunSummary {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
     RunStatus status = RunStatus::finished;
-    std::string message;                                   ///< One sentence for the user; may be empty.
+    std::string message;  ///< One sentence for the user; may be empty.
     std::string scene, version, precision;
     int threads = -1, vertices = -1, triangles = -1;
     std::int64_t steps = -1, frames = -1, newton_iterations = -1, linear_iterations = -1;
     double simulated_s = unknown, wall_s = unknown;
-    std::vector<std::pair<std::string, double>> phases;    ///< Name and wall time [s], in order.
+    std::vector<std::pair<std::string, double>> phases;  ///< Name and wall time [s], in order.
     std::vector<KernelUse> kernels;
-    std::vector<std::string> active;                       ///< Terms and stages that ran.
+    std::vector<std::string> active;  ///< Terms and stages that ran.
     std::vector<SkippedPart> skipped;
     std::vector<std::string> warnings;
     std::int64_t peak_memory_bytes = -1;
     StabilityUse stability;
-    std::vector<CoarseUse> coarse_start;                   ///< Coarsest first; empty: the cloth itself fell from its start.
-    double residual = unknown;                             ///< Relative force residual at the end.
+    std::vector<CoarseUse> coarse_start;  ///< Coarsest first; empty: the cloth itself fell from its start.
+    double residual = unknown;            ///< Relative force residual at the end.
     struct Energy {
         double membrane = unknown, bending = unknown, gravity = unknown, contact = unknown, kinetic = unknown;
-    } energy;                                              ///< [J]
+    } energy;  ///< [J]
     struct Stretch {
         double min = unknown, max = unknown, p99 = unknown;
-    } stretch;                                             ///< Principal stretch - 1.
-    double body_max_penetration = unknown, body_min_gap = unknown;   ///< [m]
-    std::int64_t self_intersections = -1, body_intersections = -1;   ///< Pairs of triangles in the last frame.
+    } stretch;                                                      ///< Principal stretch - 1.
+    double body_max_penetration = unknown, body_min_gap = unknown;  ///< [m]
+    std::int64_t self_intersections = -1, body_intersections = -1;  ///< Pairs of triangles in the last frame.
     int seam_count = -1;
-    double seam_max_gap = unknown;                         ///< [m]
+    double seam_max_gap = unknown;  ///< [m]
     std::vector<PanelFit> panels;
 };
 

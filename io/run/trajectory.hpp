@@ -29,27 +29,27 @@ Eigen::Vector3f written_position(const Vec3& position, double spacing);
 /// Everything of a run that does not change from frame to frame.
 struct TrajectoryLayout {
     int point_count = 0;
-    std::vector<Face> triangles;                            ///< Point indices; some points may belong to none.
-    std::vector<Vec2> panel_coordinates;                    ///< Per point: (weft, warp) [m].
-    std::vector<int> panel;                                 ///< Per point: index into panel_names.
-    std::vector<std::array<double, 3>> rest_edge_lengths;   ///< Per triangle: edges 01, 12, 20 [m].
-    std::vector<std::array<int, 2>> seam_pairs;             ///< Points that are sewn to each other.
+    std::vector<Face> triangles;                           ///< Point indices; some points may belong to none.
+    std::vector<Vec2> panel_coordinates;                   ///< Per point: (weft, warp) [m].
+    std::vector<int> panel;                                ///< Per point: index into panel_names.
+    std::vector<std::array<double, 3>> rest_edge_lengths;  ///< Per triangle: edges 01, 12, 20 [m].
+    std::vector<std::array<int, 2>> seam_pairs;            ///< Points that are sewn to each other.
     std::vector<std::string> panel_names;
-    std::string scene_text;                                 ///< The whole scene as run.
-    std::string scene_file;                                 ///< Absolute path of the scene, or builtin:NAME.
-    std::string version;                                    ///< Of the program that writes.
+    std::string scene_text;  ///< The whole scene as run.
+    std::string scene_file;  ///< Absolute path of the scene, or builtin:NAME.
+    std::string version;     ///< Of the program that writes.
     PositionGrid grid = PositionGrid::fine_8um;
 };
 
 /// What is kept of a frame beside its positions; NaN stands for unknown, except for the time.
 struct FrameScalars {
-    double time = 0;             ///< Simulated [s].
-    double kinetic_energy = 0;   ///< [J]
-    double total_energy = 0;     ///< [J]
-    double residual = 0;         ///< Relative force residual [1].
-    double wall_seconds = 0;     ///< Since the start of the run.
+    double time = 0;            ///< Simulated [s].
+    double kinetic_energy = 0;  ///< [J]
+    double total_energy = 0;    ///< [J]
+    double residual = 0;        ///< Relative force residual [1].
+    double wall_seconds = 0;    ///< Since the start of the run.
     int contacts = 0;
-    int iterations = 0;          ///< Of Newton's method since the previous frame.
+    int iterations = 0;  ///< Of Newton's method since the previous frame.
 };
 
 /// Writes run.h5, a temporal VTKHDF PolyData file, and run.xdmf beside it.
@@ -74,25 +74,25 @@ public:
     void write_frame(std::span<const Vec3> positions, const FrameScalars& scalars);
 
     int frame_count() const { return int(times_.size()); }
-    double last_time() const { return times_.empty() ? 0 : times_.back(); }   ///< Of the last committed frame [s].
+    double last_time() const { return times_.empty() ? 0 : times_.back(); }  ///< Of the last committed frame [s].
 
     /// Adds the virtual dataset /selvage/positions, writes the final run.xdmf and closes the file.
     void finish();
 
 private:
     TrajectoryWriter(const std::string& path, const TrajectoryLayout& layout, std::vector<double> times);
-    void append_row(const FrameScalars& scalars);   ///< Commits the frame.
+    void append_row(const FrameScalars& scalars);  ///< Commits the frame.
     void write_index_file();
 
     std::string path_;
     int point_count_, triangle_count_;
     double spacing_;
-    std::vector<double> times_;               ///< Of the committed frames [s].
+    std::vector<double> times_;  ///< Of the committed frames [s].
     std::chrono::steady_clock::time_point index_written_{};
-    std::vector<float> buffer_;               ///< Rounded positions of one frame.
+    std::vector<float> buffer_;  ///< Rounded positions of one frame.
     std::unique_ptr<Hdf5File> file_;
     Hdf5Id points_;
-    std::vector<Hdf5Id> columns_;             ///< In the order of frame_columns().
+    std::vector<Hdf5Id> columns_;  ///< In the order of frame_columns().
 };
 
 /// Reads run.h5, finished or not.
@@ -102,7 +102,7 @@ public:
     explicit TrajectoryReader(const std::string& path);
 
     const TrajectoryLayout& layout() const { return layout_; }
-    int frame_count() const { return int(scalars_.size()); }   ///< Committed frames.
+    int frame_count() const { return int(scalars_.size()); }  ///< Committed frames.
     const FrameScalars& scalars(int frame) const { return scalars_.at(std::size_t(frame)); }
 
     /// Positions [m] of a frame in [0, frame_count).

@@ -7,7 +7,7 @@
 namespace selvage::trajectory_format {
 namespace {
 
-constexpr hsize_t column_chunk = 256;   // Rows; 2 KiB, so that short runs stay small.
+constexpr hsize_t column_chunk = 256;  // Rows; 2 KiB, so that short runs stay small.
 
 void check(const TrajectoryLayout& layout)
 {
@@ -21,7 +21,8 @@ void check(const TrajectoryLayout& layout)
     for (const Face& face : layout.triangles)
         if (!std::ranges::all_of(face, is_point)) throw std::invalid_argument("trajectory: triangle without its point");
     for (const auto& pair : layout.seam_pairs)
-        if (!std::ranges::all_of(pair, is_point)) throw std::invalid_argument("trajectory: seam pair without its point");
+        if (!std::ranges::all_of(pair, is_point))
+            throw std::invalid_argument("trajectory: seam pair without its point");
 }
 
 template <class Rows>
@@ -60,9 +61,10 @@ void write_arrays(Hdf5File& file, const TrajectoryLayout& layout)
     file.write("/VTKHDF/PointData/panel_coordinates", H5T_IEEE_F32LE, {point_count, 2}, coordinates, compressed);
     file.write("/VTKHDF/PointData/panel", H5T_STD_I32LE, {point_count}, panel, compressed);
     file.write("/VTKHDF/CellData/rest_edge_lengths", H5T_IEEE_F32LE, {triangle_count, 3}, lengths, compressed);
-    file.write("/selvage/triangles", H5T_STD_I32LE, {triangle_count, 3}, flatten_integers(layout.triangles), compressed);
-    file.write("/selvage/seam_pairs", H5T_STD_I32LE, {layout.seam_pairs.size(), 2},
-               flatten_integers(layout.seam_pairs), compressed);
+    file.write("/selvage/triangles", H5T_STD_I32LE, {triangle_count, 3}, flatten_integers(layout.triangles),
+               compressed);
+    file.write("/selvage/seam_pairs", H5T_STD_I32LE, {layout.seam_pairs.size(), 2}, flatten_integers(layout.seam_pairs),
+               compressed);
 }
 
 void write_attributes(Hdf5File& file, const TrajectoryLayout& layout)
@@ -104,11 +106,9 @@ void write_contents(const std::string& path, const TrajectoryLayout& layout)
     file.make_group("/VTKHDF");
     file.make_group("/selvage");
     write_attributes(file, layout);
-    file.make_dataset(points, H5T_IEEE_F32LE, {0, 3},
-                      {.compressed = true,
-                       .growing = true,
-                       .chunk = {hsize_t(layout.point_count), 3},
-                       .checked = false});
+    file.make_dataset(
+        points, H5T_IEEE_F32LE, {0, 3},
+        {.compressed = true, .growing = true, .chunk = {hsize_t(layout.point_count), 3}, .checked = false});
     file.write("/VTKHDF/NumberOfPoints", H5T_STD_I64LE, {1}, point_count);
     for (const char* group : {"/VTKHDF/Vertices", "/VTKHDF/Lines", "/VTKHDF/Strips"}) write_cells(file, group, {});
     write_cells(file, "/VTKHDF/Polygons", layout.triangles);
@@ -144,7 +144,8 @@ void write_row(hid_t dataset, const FrameColumn& column, int frame, const std::a
         count{1, hsize_t(column.width)};
     require_hdf5(H5Dset_extent(dataset, shape.data()), column.name);
     const Hdf5Id target(H5Dget_space(dataset), H5Sclose, column.name);
-    require_hdf5(H5Sselect_hyperslab(target, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), column.name);
+    require_hdf5(H5Sselect_hyperslab(target, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+                 column.name);
     const Hdf5Id source(H5Screate_simple(rank, count.data(), nullptr), H5Sclose, column.name);
     std::array<std::int64_t, 4> whole{};
     for (std::size_t k = 0; column.integer && k < 4; ++k) whole[k] = std::int64_t(values[k]);

@@ -15,8 +15,8 @@ inline constexpr const char* schema = "selvage-run-1";
 /// A dataset with one row per frame.
 struct FrameColumn {
     const char* name;
-    bool integer;   ///< int64 if true, float64 if not.
-    int width;      ///< Numbers per row; 1: the dataset has one dimension.
+    bool integer;  ///< int64 if true, float64 if not.
+    int width;     ///< Numbers per row; 1: the dataset has one dimension.
 };
 
 /// The first column is written together with NSteps: vtkHDFReader overruns its buffer when there are more times

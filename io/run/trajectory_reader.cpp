@@ -23,7 +23,8 @@ std::vector<Row> rows_of(const std::vector<Value>& values)
     Row row{};
     std::vector<Row> rows(values.size() / std::size_t(row.size()));
     for (std::size_t index = 0; index < values.size(); ++index)
-        rows[index / rows[0].size()][index % rows[0].size()] = static_cast<std::decay_t<decltype(row[0])>>(values[index]);
+        rows[index / rows[0].size()][index % rows[0].size()] =
+            static_cast<std::decay_t<decltype(row[0])>>(values[index]);
     return rows;
 }
 
@@ -49,11 +50,12 @@ std::vector<FrameScalars> read_scalars(const Hdf5File& file, std::size_t frame_c
     const auto time = file.read_reals("/selvage/time"), kinetic = file.read_reals("/selvage/kinetic_energy"),
                total = file.read_reals("/selvage/total_energy"), residual = file.read_reals("/selvage/residual"),
                wall = file.read_reals("/selvage/wall_seconds");
-    const auto contacts = file.read_integers("/selvage/contacts"), iterations = file.read_integers("/selvage/iterations");
+    const auto contacts = file.read_integers("/selvage/contacts"),
+               iterations = file.read_integers("/selvage/iterations");
     std::vector<FrameScalars> scalars(frame_count);
     for (std::size_t frame = 0; frame < frame_count; ++frame)
-        scalars[frame] = {time.at(frame),     kinetic.at(frame),           total.at(frame),          residual.at(frame),
-                          wall.at(frame),     int(contacts.at(frame)),     int(iterations.at(frame))};
+        scalars[frame] = {time.at(frame), kinetic.at(frame),       total.at(frame),          residual.at(frame),
+                          wall.at(frame), int(contacts.at(frame)), int(iterations.at(frame))};
     return scalars;
 }
 

@@ -50,7 +50,8 @@ void copy_frames(const TrajectoryReader& old, const std::string& path, int frame
     for (std::size_t column = 0; column < frame_columns.size(); ++column) {
         const Hdf5Id dataset = file.open_dataset(frame_columns[column].name);
         for (int frame = 0; frame < frame_count; ++frame)
-            write_row(dataset, frame_columns[column], frame, frame_rows(frame, point_count, old.scalars(frame))[column]);
+            write_row(dataset, frame_columns[column], frame,
+                      frame_rows(frame, point_count, old.scalars(frame))[column]);
     }
     file.set_integer(steps, "NSteps", frame_count);
     file.flush();
@@ -116,8 +117,8 @@ void TrajectoryWriter::write_frame(std::span<const Vec3> positions, const FrameS
     if (!std::isfinite(scalars.time)) throw std::runtime_error("trajectory: the time of a frame is not finite");
     for (std::size_t point = 0; point < positions.size(); ++point) {
         if (!positions[point].allFinite())
-            throw std::runtime_error("trajectory: the position of vertex " + std::to_string(point) + " at t = " +
-                                     std::to_string(scalars.time) + " s is not finite");
+            throw std::runtime_error("trajectory: the position of vertex " + std::to_string(point) +
+                                     " at t = " + std::to_string(scalars.time) + " s is not finite");
         const Eigen::Vector3f written = written_position(positions[point], spacing_);
         for (int axis = 0; axis < 3; ++axis) buffer_[3 * point + std::size_t(axis)] = written[axis];
     }

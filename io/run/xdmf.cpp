@@ -11,11 +11,16 @@ std::string escaped(const std::string& text)
 {
     std::string result;
     for (const char c : text) {
-        if (c == '&') result += "&amp;";
-        else if (c == '<') result += "&lt;";
-        else if (c == '>') result += "&gt;";
-        else if (c == '"') result += "&quot;";
-        else result += c;
+        if (c == '&')
+            result += "&amp;";
+        else if (c == '<')
+            result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
+        else if (c == '"')
+            result += "&quot;";
+        else
+            result += c;
     }
     return result;
 }
@@ -26,10 +31,12 @@ std::string frame_text(const XdmfIndex& index, const std::string& hdf5, std::siz
     return fmt::format(R"(      <Grid Name="frame {0}" GridType="Uniform">
         <Time Value="{1:.9g}"/>
         <Topology TopologyType="Triangle" NumberOfElements="{2}">
-          <DataItem Format="HDF" NumberType="Int" Precision="8" Dimensions="{4}">{3}:/VTKHDF/Polygons/Connectivity</DataItem>
+          <DataItem Format="HDF" NumberType="Int" Precision="8" Dimensions="{4}">)"
+                       R"({3}:/VTKHDF/Polygons/Connectivity</DataItem>
         </Topology>
         <Geometry GeometryType="XYZ">
-          <DataItem Format="HDF" NumberType="Float" Precision="4" Dimensions="{5} 3">{3}:/VTKHDF/Points|{6} 0:1 1:{5} 3:{7} 3</DataItem>
+          <DataItem Format="HDF" NumberType="Float" Precision="4" Dimensions="{5} 3">)"
+                       R"({3}:/VTKHDF/Points|{6} 0:1 1:{5} 3:{7} 3</DataItem>
         </Geometry>
         <Attribute Name="panel" AttributeType="Scalar" Center="Node">
           <DataItem Format="HDF" NumberType="Int" Precision="4" Dimensions="{5}">{3}:/VTKHDF/PointData/panel</DataItem>

@@ -6,10 +6,10 @@ namespace selvage {
 
 /// What run.xdmf says about the run.h5 beside it.
 struct XdmfIndex {
-    std::string hdf5_name;       ///< File name without folder.
+    std::string hdf5_name;  ///< File name without folder.
     int point_count = 0;
     int triangle_count = 0;
-    std::vector<double> times;   ///< One per frame [s].
+    std::vector<double> times;  ///< One per frame [s].
 };
 
 /// The XDMF 3 text of a temporal collection whose heavy data lie in the HDF5 file.

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "io/scene/fabric_table.hpp"
 #include "io/number_text.hpp"
+#include "io/scene/fabric_table.hpp"
 #include "io/scene/presets.hpp"
 #include "io/scene/scene_keys.hpp"
 
@@ -31,7 +31,7 @@ struct FabricTable {
 #define NOT_A_WORD(name, initial, choices, meaning)
 #define NOT_A_CURVE(name, number, measure, meaning)
 
-constexpr double largest_elongation = 10, largest_angle = 1.5;   // [1], [rad]
+constexpr double largest_elongation = 10, largest_angle = 1.5;  // [1], [rad]
 
 // A curve's points, and the number and curve of a fabric that they stand for.
 struct GivenCurve {
@@ -51,8 +51,9 @@ std::vector<Vec2> membrane_points(const GivenCurve& given, const InputPlace& pla
     for (const Vec2& measured : given.points) {
         points.push_back(membrane_point(given.measure, measured));
         if (points.back().y() <= last)
-            throw InputError(place, "a force per width of " + number_text(measured.y()) + " N/m at a strain of " +
-                                        number_text(measured.x()),
+            throw InputError(place,
+                             "a force per width of " + number_text(measured.y()) + " N/m at a strain of " +
+                                 number_text(measured.x()),
                              "forces that grow faster than 1 + strain, or the sheet would yield");
         last = points.back().y();
     }
@@ -78,9 +79,9 @@ void merge_curve(const GivenCurve& given, const std::string& shape, const TableR
 void merge_curves(const FabricTable& table, const TableReader& reader, Fabric& fabric)
 {
     bool any = false;
-#define MERGE_CURVE(name, number, measure, meaning)                                                         \
+#define MERGE_CURVE(name, number, measure, meaning)                                                            \
     merge_curve({#name, #number, table.name, table.number, CurveMeasure::measure, fabric.name, fabric.number}, \
-                table.curve, reader);                                                                       \
+                table.curve, reader);                                                                          \
     any = any || !table.name.empty();
     FABRIC_KEYS(NOT_A_NUMBER_KEY, NOT_A_WORD, MERGE_CURVE)
 #undef MERGE_CURVE
@@ -109,7 +110,7 @@ void require_number(double given, const TableReader& reader, const char* name)
 
 void check_number(double value, const InputPlace& fabric, const char* name, const char* unit, double low, double high)
 {
-    if (std::isnan(value) || (value >= low && value <= high)) return;   // a property that may be automatic
+    if (std::isnan(value) || (value >= low && value <= high)) return;  // a property that may be automatic
     InputPlace place = fabric;
     place.key += (place.key.empty() ? "" : ".") + std::string(name);
     throw InputError(place, number_text(value), "a number from " + range_text(low, high, unit),
@@ -124,10 +125,11 @@ void require_definite(const InputPlace& fabric, const std::string& kind, double 
     if (coupling == 0 || coupling < limit) return;
     InputPlace place = fabric;
     place.key += (place.key.empty() ? "" : ".") + kind + "_coupling";
-    throw InputError(place, number_text(coupling),
-                     fmt::format("less than sqrt({0}_weft * {0}_warp) = {1} {2} (of curves the smallest slopes), or some "
-                                 "strain would cost no energy",
-                                 kind, rounded_text(limit), unit));
+    throw InputError(
+        place, number_text(coupling),
+        fmt::format("less than sqrt({0}_weft * {0}_warp) = {1} {2} (of curves the smallest slopes), or some "
+                    "strain would cost no energy",
+                    kind, rounded_text(limit), unit));
 }
 
 }  // namespace
@@ -138,10 +140,7 @@ double twist_rigidity(const Fabric& fabric)
     return 2 * (std::sqrt(fabric.bending_weft * fabric.bending_warp) - fabric.bending_coupling);
 }
 
-std::vector<std::string> fabric_preset_names()
-{
-    return preset_names(folder);
-}
+std::vector<std::string> fabric_preset_names() { return preset_names(folder); }
 
 Fabric fabric_preset(const std::string& name)
 {

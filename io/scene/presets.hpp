@@ -8,7 +8,7 @@ namespace selvage {
 
 /// A file of io/presets that is built into the program by io/embed_presets.cmake.
 struct PresetFile {
-    std::string_view path;   ///< Below io/presets, such as `fabrics/cotton.toml`.
+    std::string_view path;  ///< Below io/presets, such as `fabrics/cotton.toml`.
     std::string_view text;
 };
 

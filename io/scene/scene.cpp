@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "io/scene/fabric_table.hpp"
 #include "io/file_text.hpp"
+#include "io/scene/fabric_table.hpp"
 #include "io/scene/presets.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -18,10 +18,7 @@ namespace fs = std::filesystem;
 constexpr const char* scene_folder = "scenes";
 constexpr std::string_view builtin_prefix = "builtin:";
 
-bool is_builtin(std::string_view name)
-{
-    return name.substr(0, builtin_prefix.size()) == builtin_prefix;
-}
+bool is_builtin(std::string_view name) { return name.substr(0, builtin_prefix.size()) == builtin_prefix; }
 
 TomlDocument read_document(const std::string& source)
 {
@@ -35,11 +32,8 @@ TomlDocument read_document(const std::string& source)
 #define READ_KEY(type, name, initial, unit, low, high, meaning) reader.read(#name, target.name, unit, low, high);
 #define READ_WORD(name, initial, choices, meaning) reader.read(#name, target.name, choices);
 #define READ_VEC3(name, x, y, z, unit, meaning) reader.read(#name, target.name, unit);
-#define SCENE_TABLE(name, type, keys, meaning)           \
-    void read_keys(TableReader& reader, type& target)    \
-    {                                                    \
-        keys(READ_KEY, READ_WORD, READ_VEC3)             \
-    }
+#define SCENE_TABLE(name, type, keys, meaning) \
+    void read_keys(TableReader& reader, type& target) { keys(READ_KEY, READ_WORD, READ_VEC3) }
 SCENE_TABLES(SCENE_TABLE)
 SCENE_TABLE(sheet, SheetScene, SHEET_KEYS, "")
 SCENE_TABLE(body, BodyScene, BODY_KEYS, "")
@@ -140,10 +134,7 @@ InputPlace Scene::place(const std::string& key) const
     return known == places.end() ? InputPlace{file, 0, 0, key} : known->second;
 }
 
-std::string Scene::resolve(const std::string& file_name) const
-{
-    return (fs::path(folder) / file_name).string();
-}
+std::string Scene::resolve(const std::string& file_name) const { return (fs::path(folder) / file_name).string(); }
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/errors.hpp"
-#include "io/scene/fabric.hpp"
 #include "io/geometry.hpp"
+#include "io/scene/fabric.hpp"
 #include "io/scene/scene_keys.hpp"
 
 namespace selvage {
@@ -19,8 +19,8 @@ inline constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
 #define SCENE_KEY(type, name, initial, unit, low, high, meaning) type name = initial;
 #define SCENE_WORD(name, initial, choices, meaning) std::string name = initial;
 #define SCENE_VEC3(name, x, y, z, unit, meaning) Vec3 name{x, y, z};
-#define SCENE_TABLE(name, type, keys, meaning) \
-    struct type {                              \
+#define SCENE_TABLE(name, type, keys, meaning)  \
+    struct type {                               \
         keys(SCENE_KEY, SCENE_WORD, SCENE_VEC3) \
     };
 SCENE_TABLES(SCENE_TABLE)
@@ -33,7 +33,7 @@ struct KeyframeScene {
 };
 struct BodyScene {
     BODY_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
-    std::vector<KeyframeScene> keyframes;   ///< [[body.keyframe]]
+    std::vector<KeyframeScene> keyframes;  ///< [[body.keyframe]]
     bool moves() const { return !keyframes.empty() || !sequence.empty(); }
 };
 struct PinMotionScene {
@@ -54,15 +54,15 @@ struct Scene {
 #define SCENE_TABLE(name, type, keys, meaning) type name;
     SCENE_TABLES(SCENE_TABLE)
 #undef SCENE_TABLE
-    std::map<std::string, std::string> panel_fabrics;   ///< [garment.fabrics]: panel name to fabric name.
-    std::vector<SheetScene> sheets;                     ///< [[sheet]]
-    std::vector<BodyScene> bodies;                      ///< [[body]]
-    std::vector<PinMotionScene> pin_motions;            ///< [[pins.motion]]
-    std::map<std::string, Fabric> fabrics;              ///< Every fabric that the scene names, resolved and checked.
-    std::map<std::string, InputPlace> places;           ///< Key path to its place in the file, for later messages.
+    std::map<std::string, std::string> panel_fabrics;  ///< [garment.fabrics]: panel name to fabric name.
+    std::vector<SheetScene> sheets;                    ///< [[sheet]]
+    std::vector<BodyScene> bodies;                     ///< [[body]]
+    std::vector<PinMotionScene> pin_motions;           ///< [[pins.motion]]
+    std::map<std::string, Fabric> fabrics;             ///< Every fabric that the scene names, resolved and checked.
+    std::map<std::string, InputPlace> places;          ///< Key path to its place in the file, for later messages.
 
     bool has_garment() const { return !garment.pattern.empty(); }
-    bool moves() const;   ///< A body or a pin has a motion of its own.
+    bool moves() const;  ///< A body or a pin has a motion of its own.
     /// Returns the place of a key path such as `body[0].mesh`; only the file when the key was not given.
     InputPlace place(const std::string& key) const;
     /// Returns a file name from the scene, resolved against the scene's folder.
@@ -83,7 +83,7 @@ Scene read_scene_text(const std::string& text, const std::string& source);
 struct SceneInfo {
     std::string name;
     std::string summary;
-    std::vector<std::string> parameters;   ///< Keys that are commonly overridden.
+    std::vector<std::string> parameters;  ///< Keys that are commonly overridden.
 };
 
 /// Returns the built-in scenes, sorted by name.

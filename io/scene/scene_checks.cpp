@@ -82,7 +82,8 @@ void check_pin_motion(const Scene& scene, int index)
     if (motion.turns != 0 && motion.axis.norm() == 0)
         throw InputError(scene.place(path + "axis"), "[0, 0, 0]", "a direction, as the group turns");
     if (scene.sheets.empty())
-        throw InputError(scene.place(path + "group"), "a scene without [[sheet]]", "a sheet whose vertices can be held");
+        throw InputError(scene.place(path + "group"), "a scene without [[sheet]]",
+                         "a sheet whose vertices can be held");
 }
 
 // What moves feeds energy in, which cannot be told from what an unstable step does; and a rest at part of the weight

@@ -134,10 +134,11 @@ void TableReader::read(const char* name, std::vector<Vec2>& target, int most, do
         if (!stress) refuse(name, item, "a point [strain, stress] of two numbers");
         const Vec2 point(*strain, *stress);
         if (&item == &(*list)[0] && point.isZero()) continue;
-        const bool grows = point.x() > last.x() && point.y() > last.y();   // false for NaN too
+        const bool grows = point.x() > last.x() && point.y() > last.y();  // false for NaN too
         if (!grows || !(point.x() <= largest_strain) || !(point.y() <= 1e9))
-            refuse(name, item, "strain and stress above those of the point before, from [0, 0]; strain up to " +
-                                   number_text(largest_strain) + " " + strain_unit + ", stress up to 1e9 N/m");
+            refuse(name, item,
+                   "strain and stress above those of the point before, from [0, 0]; strain up to " +
+                       number_text(largest_strain) + " " + strain_unit + ", stress up to 1e9 N/m");
         target.push_back(last = point);
     }
     if (target.empty() || int(target.size()) > most) refuse(name, *node, shape + " besides [0, 0]");

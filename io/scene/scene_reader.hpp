@@ -14,7 +14,7 @@ namespace selvage {
 
 /// A parsed TOML text that remembers which of its values came from the command line.
 struct TomlDocument {
-    std::string file;                              ///< As the user gave it.
+    std::string file;  ///< As the user gave it.
     toml::table root;
     std::map<std::string, std::string> overrides;  ///< Key path to the override as given.
     std::map<std::string, InputPlace> places;      ///< Key path to its place, filled while tables are read.

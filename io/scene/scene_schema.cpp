@@ -77,11 +77,17 @@ KeyText curve_key(const char* name, const char* meaning)
 #define LIST_VEC3(name, x, y, z, unit, meaning) vector_key(#name, x, y, z, unit, meaning),
 std::vector<TableText> tables()
 {
-    const std::vector<KeyText> top{
-        word_key("summary", "", "", "what the scene shows, in one sentence"),
-        KeyText{"parameters", "list of texts", "[]", "", "any texts", "keys that are commonly overridden",
-                {{"name", "parameters"}, {"type", "list of texts"}, {"default", Json::array()},
-                 {"meaning", "keys that are commonly overridden"}}}};
+    const std::vector<KeyText> top{word_key("summary", "", "", "what the scene shows, in one sentence"),
+                                   KeyText{"parameters",
+                                           "list of texts",
+                                           "[]",
+                                           "",
+                                           "any texts",
+                                           "keys that are commonly overridden",
+                                           {{"name", "parameters"},
+                                            {"type", "list of texts"},
+                                            {"default", Json::array()},
+                                            {"meaning", "keys that are commonly overridden"}}}};
     std::vector<TableText> list{{"(top of the file)", "", "the scene itself", false, top}};
 #define SCENE_TABLE(name, type, keys, meaning) \
     list.push_back({"[" #name "]", #name, meaning, false, {keys(LIST_KEY, LIST_WORD, LIST_VEC3)}});
@@ -89,17 +95,28 @@ std::vector<TableText> tables()
 #undef SCENE_TABLE
     list.push_back(
         {"[garment.fabrics]", "garment.fabrics", "fabrics of single panels, as PANEL = \"FABRIC\"", false, {}});
-    list.push_back({"[[sheet]]", "sheet", "plain cloth; may be repeated", true,
-                    {SHEET_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
-    list.push_back({"[[body]]", "body", "what the cloth falls on; may be repeated", true,
+    list.push_back(
+        {"[[sheet]]", "sheet", "plain cloth; may be repeated", true, {SHEET_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+    list.push_back({"[[body]]",
+                    "body",
+                    "what the cloth falls on; may be repeated",
+                    true,
                     {BODY_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
-    list.push_back({"[[body.keyframe]]", "body.keyframe",
-                    "where a body is at a time, under its [[body]]; it moves from one to the next and stays at the last",
-                    true, {KEYFRAME_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
-    list.push_back({"[[pins.motion]]", "pins.motion",
-                    "held vertices that move; those that share vertices act one after the other on where these are", true,
+    list.push_back(
+        {"[[body.keyframe]]",
+         "body.keyframe",
+         "where a body is at a time, under its [[body]]; it moves from one to the next and stays at the last",
+         true,
+         {KEYFRAME_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+    list.push_back({"[[pins.motion]]",
+                    "pins.motion",
+                    "held vertices that move; those that share vertices act one after the other on where these are",
+                    true,
                     {PIN_MOTION_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
-    list.push_back({"[fabric.NAME]", "fabric.NAME", "a fabric of the scene's own, or changes to a built-in one", false,
+    list.push_back({"[fabric.NAME]",
+                    "fabric.NAME",
+                    "a fabric of the scene's own, or changes to a built-in one",
+                    false,
                     {FABRIC_KEYS(LIST_KEY, LIST_WORD, LIST_CURVE)}});
     return list;
 }

@@ -10,11 +10,11 @@ namespace selvage {
 /// where e is the Green-Lagrange strain (of the weft or the warp) or g = U.V (shear), and s is the second
 /// Piola-Kirchhoff stress per width.
 struct CurveRange {
-    double start = 0;        ///< [1]
-    double stress = 0;       ///< At `start` [N/m].
-    double slope = 0;        ///< At `start` [N/m].
-    double quadratic = 0;    ///< [N/m]
-    double cubic = 0;        ///< [N/m]
+    double start = 0;      ///< [1]
+    double stress = 0;     ///< At `start` [N/m].
+    double slope = 0;      ///< At `start` [N/m].
+    double quadratic = 0;  ///< [N/m]
+    double cubic = 0;      ///< [N/m]
 };
 
 /// Ranges in the order of strain, the first of which starts at no strain and no stress; the last one has no end.
@@ -26,13 +26,14 @@ constexpr int most_curve_points = 8;
 
 /// How measured strain and stress are defined.
 enum class CurveMeasure {
-    tension,   ///< Elongation over length [1], and force over unstretched width [N/m] (KES-FB1, grab and strip tests).
-    shear      ///< Shear angle phi [rad], and shear force over length [N/m] (KES-FB1, picture frame).
+    tension,  ///< Elongation over length [1], and force over unstretched width [N/m] (KES-FB1, grab and strip tests).
+    shear     ///< Shear angle phi [rad], and shear force over length [N/m] (KES-FB1, picture frame).
 };
 
 /// Turns a measured point into the strain and stress of the membrane.
 ///     tension:  e = x + x^2/2,   s = P / (1 + x)       (P is the nominal stress: W = int P dx = int s de)
-///     shear:    g = sin(phi),    s = F                 (yarns keep their length: a point of a yarn of unit length moves
+///     shear:    g = sin(phi),    s = F                 (yarns keep their length: a point of a yarn of unit length
+///     moves
 ///                                                       by d(sin phi) along F, so W = int F dg)
 Vec2 membrane_point(CurveMeasure measure, const Vec2& measured);
 
@@ -54,7 +55,8 @@ StressCurve smooth_curve(const std::vector<Vec2>& points);
 /// s = k1 e + k2 e^2 + k3 e^3 (Volino, Magnenat-Thalmann and Faure 2009, section 4).
 StressCurve cubic_curve(double k1, double k2, double k3);
 
-/// Returns the curve with a steep straight range that starts at `limit`: its slope is `factor` times the one there (C5).
+/// Returns the curve with a steep straight range that starts at `limit`: its slope is `factor` times the one there
+/// (C5).
 StressCurve limited_curve(const StressCurve& curve, double limit, double factor);
 
 /// Stress at a strain >= 0 [N/m].

@@ -8,12 +8,19 @@
 
 #define NO_CROSSING REAL(2)
 
-typedef struct { vec3 normal; real gap; } body_contact;
+typedef struct {
+    vec3 normal;
+    real gap;
+} body_contact;
 
 typedef enum { PLANE_SHAPE, SPHERE_SHAPE, CAPSULE_SHAPE } analytic_shape;
 
 // `center` is the sphere's centre, a point of the plane or the capsule's first end; unused members are ignored.
-typedef struct { analytic_shape shape; vec3 center, end, normal; real radius; } analytic_body;
+typedef struct {
+    analytic_shape shape;
+    vec3 center, end, normal;
+    real radius;
+} analytic_body;
 
 KERNEL_FN body_contact plane_contact(vec3 x, vec3 point, vec3 normal)
 {
@@ -29,7 +36,7 @@ KERNEL_FN body_contact sphere_contact(vec3 x, vec3 center, real radius)
     real distance = length(d);
     body_contact contact;
     contact.gap = distance - radius;
-    contact.normal = make_vec3(REAL(0), REAL(0), REAL(1));   // at the centre every direction is as good
+    contact.normal = make_vec3(REAL(0), REAL(0), REAL(1));  // at the centre every direction is as good
     if (distance > REAL(0)) contact.normal = (REAL(1) / distance) * d;
     return contact;
 }
@@ -54,7 +61,7 @@ KERNEL_FN real quadratic_entry(real a, real b, real c)
 {
     real discriminant = b * b - a * c;
     if (b >= REAL(0) || a <= REAL(0) || discriminant < REAL(0)) return NO_CROSSING;
-    real t = c / (sqrt(discriminant) - b);                   // the smaller root, without cancellation
+    real t = c / (sqrt(discriminant) - b);  // the smaller root, without cancellation
     return t <= REAL(1) ? t : NO_CROSSING;
 }
 
@@ -75,7 +82,7 @@ KERNEL_FN real side_entry(vec3 x0, vec3 step, vec3 first, vec3 last, real radius
     vec3 d = from_first - along0 * axis;
     vec3 across = step - along_step * axis;
     real c = dot(d, d) - radius * radius;
-    if (c < REAL(0)) return NO_CROSSING;                     // beyond an end: only the end's sphere can be entered
+    if (c < REAL(0)) return NO_CROSSING;  // beyond an end: only the end's sphere can be entered
     real t = quadratic_entry(dot(across, across), dot(d, across), c);
     real along = along0 + t * along_step;
     return along >= REAL(0) && along <= REAL(1) ? t : NO_CROSSING;

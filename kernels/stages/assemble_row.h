@@ -7,22 +7,22 @@
 #include "../term_args.h"
 
 typedef struct {
-    GLOBAL const int* RESTRICT row_begin;       // first block of each row; one more entry than rows
+    GLOBAL const int* RESTRICT row_begin;  // first block of each row; one more entry than rows
     GLOBAL const int* RESTRICT column;
-    GLOBAL linear* RESTRICT block;              // nine entries per block, by rows
+    GLOBAL linear* RESTRICT block;  // nine entries per block, by rows
     GLOBAL const real* RESTRICT mass;
     GLOBAL const real* RESTRICT inv_mass;
     GLOBAL const block_real* RESTRICT vertex_stiffness;  // may be null
     int vertex_stride;
-    real inertia;                               // 1/dt^2 [1/s^2]
+    real inertia;  // 1/dt^2 [1/s^2]
 } assemble_args;
 
 // One kind of elements around the vertices.
 typedef struct {
-    GLOBAL const int* RESTRICT slots;           // first and past-last entry of each vertex
-    GLOBAL const int* RESTRICT slot;            // 4 * element + corner
-    GLOBAL const unsigned short* RESTRICT place;// per slot entry and corner: block of the row to add to
-    GLOBAL const block_real* RESTRICT stiffness; // null: the kind is not in use
+    GLOBAL const int* RESTRICT slots;             // first and past-last entry of each vertex
+    GLOBAL const int* RESTRICT slot;              // 4 * element + corner
+    GLOBAL const unsigned short* RESTRICT place;  // per slot entry and corner: block of the row to add to
+    GLOBAL const block_real* RESTRICT stiffness;  // null: the kind is not in use
     int corners, stride;
 } assemble_kind;
 
@@ -60,7 +60,8 @@ KERNEL_FN void assemble_elements(int row, const assemble_args* a, const assemble
         for (int other = 0; other < kind->corners; ++other) {
             if (other == corner) continue;
             int low = corner < other ? corner : other, high = corner < other ? other : corner;
-            GLOBAL const block_real* from = kind->stiffness + 9 * (block_index(kind->corners, low, high) * kind->stride + element);
+            GLOBAL const block_real* from =
+                kind->stiffness + 9 * (block_index(kind->corners, low, high) * kind->stride + element);
             assemble_add(first + 9 * place[other], own, from, corner < other);
         }
     }
@@ -75,8 +76,7 @@ KERNEL_FN void assemble_finish(int row, const assemble_args* a)
         if (pinned) {
             for (int c = 0; c < 9; ++c) to[c] = diagonal && c % 4 == 0;
         } else if (diagonal) {
-            for (int c = 0; c < 9 && a->vertex_stiffness; ++c)
-                to[c] += (linear)a->vertex_stiffness[9 * row + c];
+            for (int c = 0; c < 9 && a->vertex_stiffness; ++c) to[c] += (linear)a->vertex_stiffness[9 * row + c];
             for (int c = 0; c < 9; c += 4) to[c] += (linear)(a->inertia * a->mass[row]);
         }
     }

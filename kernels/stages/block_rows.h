@@ -5,7 +5,7 @@
 typedef struct {
     GLOBAL const int* RESTRICT row_begin;
     GLOBAL const int* RESTRICT column;
-    GLOBAL const linear* RESTRICT block;   // nine entries per block, by rows
+    GLOBAL const linear* RESTRICT block;  // nine entries per block, by rows
     GLOBAL const linear* RESTRICT x;
     GLOBAL linear* RESTRICT y;
 } block_rows_args;
@@ -28,7 +28,7 @@ KERNEL_FN void block_row_product(int row, const block_rows_args* a)
 }
 
 typedef struct {
-    GLOBAL const linear* RESTRICT block;   // one block per vertex
+    GLOBAL const linear* RESTRICT block;  // one block per vertex
     GLOBAL const linear* RESTRICT x;
     GLOBAL linear* RESTRICT y;
 } block_diagonal_args;
@@ -54,7 +54,7 @@ typedef struct {
     GLOBAL const int* RESTRICT row_begin;
     GLOBAL const int* RESTRICT column;
     GLOBAL const linear* RESTRICT block;
-    GLOBAL const linear* RESTRICT inverse;   // one block per vertex
+    GLOBAL const linear* RESTRICT inverse;  // one block per vertex
     GLOBAL const linear* RESTRICT b;
     GLOBAL const linear* RESTRICT x;
     GLOBAL linear* RESTRICT d;

@@ -1,5 +1,6 @@
 // The part of the plate's stiffness that does not stand in the matrix: y += J^T (G - W) J x, in three stages.
-//     turn_h = J_h . x,      moment_h = sum_k G_hk turn_k - W_h turn_h,      y_v += sum over hinges at v of J_h^T moment_h
+//     turn_h = J_h . x,      moment_h = sum_k G_hk turn_k - W_h turn_h,      y_v += sum over hinges at v of J_h^T
+//     moment_h
 // Against an assembled matrix with 37 blocks a row this moves less than half of the bytes. See plate.h.
 #pragma once
 #include "../linear_scalar.h"
@@ -7,14 +8,14 @@
 
 typedef struct {
     GLOBAL const int* RESTRICT hinge_vertex;
-    GLOBAL const block_real* RESTRICT slope;        // J: twelve entries per hinge, by corners
-    GLOBAL const real* RESTRICT own;                // W [N m]
+    GLOBAL const block_real* RESTRICT slope;  // J: twelve entries per hinge, by corners
+    GLOBAL const real* RESTRICT own;          // W [N m]
     GLOBAL const int* RESTRICT coupling_slots;
     GLOBAL const int* RESTRICT coupling_hinge;
     GLOBAL const block_real* RESTRICT coupling_rigidity;
-    GLOBAL const int* RESTRICT hinge_slots;         // hinges around a vertex
+    GLOBAL const int* RESTRICT hinge_slots;  // hinges around a vertex
     GLOBAL const int* RESTRICT hinge_slot;
-    GLOBAL const linear* RESTRICT x;                // xyz of one vertex together
+    GLOBAL const linear* RESTRICT x;  // xyz of one vertex together
     GLOBAL linear* RESTRICT turn;
     GLOBAL linear* RESTRICT moment;
     GLOBAL linear* RESTRICT y;

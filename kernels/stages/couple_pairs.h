@@ -10,10 +10,10 @@
 typedef struct {
     mesh_sizes size;
     GLOBAL const int* RESTRICT pair_vertex;
-    GLOBAL const real* RESTRICT weight;             // of contact
-    GLOBAL const real* RESTRICT held_weight;        // of friction; null: there is none
+    GLOBAL const real* RESTRICT weight;       // of contact
+    GLOBAL const real* RESTRICT held_weight;  // of friction; null: there is none
     GLOBAL const block_real* RESTRICT stiffness;
-    GLOBAL const int* RESTRICT pair_slots;          // pairs around a vertex
+    GLOBAL const int* RESTRICT pair_slots;  // pairs around a vertex
     GLOBAL const int* RESTRICT pair_slot;
 } pair_list;
 
@@ -24,8 +24,8 @@ typedef struct {
 
 typedef struct {
     pair_list list;
-    GLOBAL const linear* RESTRICT x;                // xyz of one vertex together; pinned vertices hold 0
-    GLOBAL linear* RESTRICT relative;               // r of contact, then of friction: six per pair
+    GLOBAL const linear* RESTRICT x;   // xyz of one vertex together; pinned vertices hold 0
+    GLOBAL linear* RESTRICT relative;  // r of contact, then of friction: six per pair
     GLOBAL linear* RESTRICT y;
     GLOBAL const real* RESTRICT inv_mass;
 } couple_pairs_args;
@@ -63,7 +63,7 @@ KERNEL_FN void couple_pairs_gather(int vertex, const couple_pairs_args* a)
 {
     int ps = a->list.size.pair_stride, end = a->list.pair_slots[a->list.size.vertex_stride + vertex];
     linear sum[3] = {0, 0, 0};
-    if (a->inv_mass[vertex] == REAL(0)) return;     // the row of a pinned vertex is that of the identity
+    if (a->inv_mass[vertex] == REAL(0)) return;  // the row of a pinned vertex is that of the identity
     for (int s = a->list.pair_slots[vertex]; s < end; ++s) {
         int pair = a->list.pair_slot[s] >> 2, corner = a->list.pair_slot[s] & 3;
         for (int kind = 0; kind < (a->list.held_weight ? 2 : 1); ++kind) {

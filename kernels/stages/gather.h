@@ -4,9 +4,9 @@
 #include "../term_args.h"
 
 typedef struct {
-    GLOBAL const int* RESTRICT slots;          // first and past-last entry of each vertex
-    GLOBAL const int* RESTRICT slot;           // 4 * element + corner
-    GLOBAL const real* RESTRICT element_force; // three planes per corner
+    GLOBAL const int* RESTRICT slots;           // first and past-last entry of each vertex
+    GLOBAL const int* RESTRICT slot;            // 4 * element + corner
+    GLOBAL const real* RESTRICT element_force;  // three planes per corner
     GLOBAL real* RESTRICT force;
     int vertex_stride, element_stride;
 } gather_args;

@@ -1,7 +1,8 @@
 // Lets friction take up at once, as far as it can, what would set a resting vertex in motion.
-//     t = (I - n n^T) f,   anchor = x - r t / max(L, |t|)   where v = 0 and L > 0, f the force of all else on the vertex
-// Source: Coulomb's law at rest; see terms/friction.h. Without it cloth that starts at rest would fall into its anchors'
-// elastic way, and slide off where friction only just holds it.
+//     t = (I - n n^T) f,   anchor = x - r t / max(L, |t|)   where v = 0 and L > 0, f the force of all else on the
+//     vertex
+// Source: Coulomb's law at rest; see terms/friction.h. Without it cloth that starts at rest would fall into its
+// anchors' elastic way, and slide off where friction only just holds it.
 #pragma once
 #include "../portable.h"
 

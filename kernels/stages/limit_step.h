@@ -5,7 +5,7 @@
 #pragma once
 #include "../portable.h"
 
-#define LIMIT_STEP_PART REAL(0.9)   // of a vertex's gap: what one move may take
+#define LIMIT_STEP_PART REAL(0.9)  // of a vertex's gap: what one move may take
 
 typedef struct {
     GLOBAL const real* RESTRICT pos;

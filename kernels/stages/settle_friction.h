@@ -8,7 +8,7 @@
 
 typedef struct {
     body_contact_args contact;
-    body_repulsion_args repulsion;                  // where contact has no stiffness
+    body_repulsion_args repulsion;  // where contact has no stiffness
     GLOBAL const real* RESTRICT friction;
     GLOBAL real* RESTRICT anchor;
     GLOBAL real* RESTRICT limit;
@@ -26,7 +26,8 @@ KERNEL_FN void settle_friction_vertex(int vertex, const settle_friction_args* a)
     vec3 w = d - dot(n, d) * n;
     real q = length(w);
     // A vertex that has just come into contact sticks where it is.
-    vec3 anchor = a->limit[vertex] > REAL(0) ? x - (smaller(REAL(1), a->stick_distance / larger(q, REAL(1e-30)))) * w : x;
+    vec3 anchor =
+        a->limit[vertex] > REAL(0) ? x - (smaller(REAL(1), a->stick_distance / larger(q, REAL(1e-30)))) * w : x;
     a->limit[vertex] = limit;
     store3(a->anchor, vs, vertex, limit > REAL(0) ? anchor : x);
 }

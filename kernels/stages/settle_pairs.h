@@ -8,8 +8,8 @@
 #include "../terms/cloth_repulsion.h"
 
 typedef struct {
-    cloth_contact_args contact;                     // its frames are those of the present positions
-    cloth_repulsion_args repulsion;                 // where contact has no stiffness
+    cloth_contact_args contact;      // its frames are those of the present positions
+    cloth_repulsion_args repulsion;  // where contact has no stiffness
     cloth_friction_args friction;
     GLOBAL real* RESTRICT held_weight;
     GLOBAL real* RESTRICT held_normal;

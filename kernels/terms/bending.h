@@ -10,16 +10,18 @@
 #include "../hinge.h"
 
 #define bending_PARAMS(STRENGTH, PARAM) STRENGTH(scale, 0.0, "1", "multiplies every bending rigidity")
+// clang-format off
 #define bending_FIELDS(READ, ADD)                                                                   \
     READ(pos) READ(hinge_vertex) READ(hinge_rigidity) READ(hinge_rest_sine) ADD(hinge_force)         \
     ADD(hinge_stiffness)
+// clang-format on
 TERM_ARGS(bending)
 
 KERNEL_FN real bending_energy(int hinge, const bending_args* a)
 {
     hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
     real s0 = a->hinge_rest_sine[hinge], c0 = sqrt(REAL(1) - s0 * s0);
-    if (s0 == REAL(0))   // 1 - cos without cancellation at small angles
+    if (s0 == REAL(0))  // 1 - cos without cancellation at small angles
         return REAL(4) * a->scale * a->hinge_rigidity[hinge] * h.sine * h.sine / (REAL(1) + h.cosine);
     real turn = REAL(2) * (asin(smaller(larger(h.sine, REAL(-1)), REAL(1))) - asin(s0));
     return a->scale * a->hinge_rigidity[hinge] * (REAL(4) * (c0 - h.cosine) - REAL(2) * turn * s0);

@@ -12,12 +12,14 @@
 #pragma once
 #include "../hinge.h"
 
-#define bending_hysteresis_PARAMS(STRENGTH, PARAM)                                                 \
-    STRENGTH(scale, 0.0, "1", "multiplies every hinge's friction moment")                          \
+#define bending_hysteresis_PARAMS(STRENGTH, PARAM)                        \
+    STRENGTH(scale, 0.0, "1", "multiplies every hinge's friction moment") \
     PARAM(stick_curvature, 2.0, "1/m", "elastic change of curvature before yarns slip")
+// clang-format off
 #define bending_hysteresis_FIELDS(READ, ADD)                                                        \
     READ(pos) READ(hinge_vertex) READ(hinge_rest_sine) READ(hinge_hysteresis) READ(hinge_width)     \
     READ(hinge_anchor) ADD(hinge_force) ADD(hinge_stiffness)
+// clang-format on
 TERM_ARGS(bending_hysteresis)
 
 KERNEL_FN real bending_hysteresis_way(int hinge, const hinge_state* h, const bending_hysteresis_args* a)

@@ -1,16 +1,18 @@
 // Contact of a vertex with the nearest body surface, taken as its tangent plane while a step is solved.
-//     g = n . x - offset  [m]     gap;   s = g / d;   d the gap at which contact sets in, P a pressure, A the vertex area
-//     E = A P d b(s)  [J]         f = -A P b'(s) n  [N]      stiffness A P b''(s)/d n n^T  [N/m]
+//     g = n . x - offset  [m]     gap;   s = g / d;   d the gap at which contact sets in, P a pressure, A the vertex
+//     area E = A P d b(s)  [J]         f = -A P b'(s) n  [N]      stiffness A P b''(s)/d n n^T  [N/m]
 // Source: barrier.h for b.
 #pragma once
 #include "../barrier.h"
 #include "../term_args.h"
 
-#define body_contact_PARAMS(STRENGTH, PARAM)                                                       \
-    STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the barrier, P")                             \
+#define body_contact_PARAMS(STRENGTH, PARAM)                           \
+    STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the barrier, P") \
     PARAM(gap, 0.002, "m", "distance at which contact sets in, d")
+// clang-format off
 #define body_contact_FIELDS(READ, ADD)                                                             \
     READ(pos) READ(contact_normal) READ(contact_offset) READ(contact_area) ADD(force) ADD(vertex_stiffness)
+// clang-format on
 TERM_ARGS(body_contact)
 
 KERNEL_FN barrier_jet body_contact_at(int vertex, const body_contact_args* a)

@@ -1,17 +1,19 @@
 // Exponential repulsion of a vertex from the nearest body surface, taken as its tangent plane while a step is solved.
-//     g = n . x - offset  [m]     gap;   s = g / d;   d the gap at which contact sets in, P a pressure, A the vertex area
-//     E = A P d Q(s)  [J]         f = A P q(s) n  [N]         stiffness -A P q'(s)/d n n^T  [N/m]
-// For comparison with body_contact, in whose place it stands: its force is bounded, so it keeps nothing out for certain.
-// Source: repulsion.h for q and Q; A P is the source's c_r.
+//     g = n . x - offset  [m]     gap;   s = g / d;   d the gap at which contact sets in, P a pressure, A the vertex
+//     area E = A P d Q(s)  [J]         f = A P q(s) n  [N]         stiffness -A P q'(s)/d n n^T  [N/m]
+// For comparison with body_contact, in whose place it stands: its force is bounded, so it keeps nothing out for
+// certain. Source: repulsion.h for q and Q; A P is the source's c_r.
 #pragma once
 #include "../repulsion.h"
 #include "../term_args.h"
 
-#define body_repulsion_PARAMS(STRENGTH, PARAM)                                                     \
-    STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the exponential law, P")                     \
+#define body_repulsion_PARAMS(STRENGTH, PARAM)                                 \
+    STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the exponential law, P") \
     PARAM(gap, 0.002, "m", "distance at which contact sets in, d")
+// clang-format off
 #define body_repulsion_FIELDS(READ, ADD)                                                           \
     READ(pos) READ(contact_normal) READ(contact_offset) READ(contact_area) ADD(force) ADD(vertex_stiffness)
+// clang-format on
 TERM_ARGS(body_repulsion)
 
 KERNEL_FN barrier_jet body_repulsion_at(int vertex, const body_repulsion_args* a)

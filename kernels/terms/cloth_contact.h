@@ -3,22 +3,24 @@
 //     r = sum_i w_i x_i  [m]   from the closest point of the second side to that of the first;   d = |r|,  n = r / d
 //     s = (d - 0.005 g) / h      h = 0.995 g
 //     E = A P h b(s)  [J]       f_i = -w_i A P b'(s) n  [N]       K = A P b''(s) / h n n^T  [N/m]
-// g the pair's distance at which contact sets in, P a pressure, A the pair's area, b of barrier.h. No force brings a pair
-// nearer than g / 200, so that places rounded to float do not touch either. A corner below zero is a
-// body's: it stands at body_point[-1 - corner] and takes no force.
-// Source: Li and others 2021 (C-IPC), with distances in place of their squares. K leaves out how n turns: what it leaves
-// out is negative, since f pushes, so that K is the projected stiffness at once.
+// g the pair's distance at which contact sets in, P a pressure, A the pair's area, b of barrier.h. No force brings a
+// pair nearer than g / 200, so that places rounded to float do not touch either. A corner below zero is a body's: it
+// stands at body_point[-1 - corner] and takes no force. Source: Li and others 2021 (C-IPC), with distances in place of
+// their squares. K leaves out how n turns: what it leaves out is negative, since f pushes, so that K is the projected
+// stiffness at once.
 #pragma once
 #include "../barrier.h"
 #include "../closest.h"
 #include "../term_args.h"
 
-#define cloth_contact_PARAMS(STRENGTH, PARAM)                                                      \
-    STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the barrier, P")                             \
+#define cloth_contact_PARAMS(STRENGTH, PARAM)                          \
+    STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the barrier, P") \
     PARAM(gap, 0.002, "m", "distance at which contact of cloth with cloth sets in")
+// clang-format off
 #define cloth_contact_FIELDS(READ, ADD)                                                            \
     READ(pos) READ(body_point) READ(pair_vertex) READ(pair_edges) READ(pair_area) READ(pair_gap)   \
     ADD(pair_weight) ADD(pair_normal) ADD(pair_distance) ADD(pair_force) ADD(pair_stiffness) ADD(vertex_stiffness)
+// clang-format on
 TERM_ARGS(cloth_contact)
 
 KERNEL_FN vec3 pair_corner(int corner, int pair, const cloth_contact_args* a)

@@ -2,18 +2,20 @@
 //     w = (I - n n^T)(sum_i w_i x_i) + bristle,  q = |w|,  r the stick distance, L = mu N
 //     q <= r:  E = L q^2 / (2 r),    f_i = -w_i L w / r         (sticks: returns to its anchor)
 //     q >  r:  E = L (q - r / 2),    f_i = -w_i L w / q         (slides: |f| = mu N)
-// Weights, normal, bristle and L are those of the step's start: then r = sum w_i x_i has no tangential part, and what it
-// gains of it is the slip. After the step w, drawn in to q <= r, is the next bristle.
-// Source: Coulomb's law (D10, B15); Cundall and Strack 1979; weights lagged as in Li and others 2020, chapter 5.
+// Weights, normal, bristle and L are those of the step's start: then r = sum w_i x_i has no tangential part, and what
+// it gains of it is the slip. After the step w, drawn in to q <= r, is the next bristle. Source: Coulomb's law (D10,
+// B15); Cundall and Strack 1979; weights lagged as in Li and others 2020, chapter 5.
 #pragma once
 #include "../term_args.h"
 
-#define cloth_friction_PARAMS(STRENGTH, PARAM)                                                     \
-    STRENGTH(scale, 0.0, "1", "multiplies every friction coefficient")                             \
+#define cloth_friction_PARAMS(STRENGTH, PARAM)                         \
+    STRENGTH(scale, 0.0, "1", "multiplies every friction coefficient") \
     PARAM(stick_distance, 2e-4, "m", "elastic way before a contact slides, r")
+// clang-format off
 #define cloth_friction_FIELDS(READ, ADD)                                                           \
     READ(pos) READ(body_point) READ(pair_vertex) READ(pair_held_weight) READ(pair_held_normal)     \
     READ(pair_bristle) READ(pair_friction) READ(pair_limit) ADD(pair_force) ADD(pair_stiffness) ADD(vertex_stiffness)
+// clang-format on
 TERM_ARGS(cloth_friction)
 
 KERNEL_FN vec3 pair_way(int pair, const cloth_friction_args* a)

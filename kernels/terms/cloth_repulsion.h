@@ -6,8 +6,8 @@
 #include "../repulsion.h"
 #include "cloth_contact.h"
 
-#define cloth_repulsion_PARAMS(STRENGTH, PARAM)                                                    \
-    STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the exponential law, P")                     \
+#define cloth_repulsion_PARAMS(STRENGTH, PARAM)                                \
+    STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the exponential law, P") \
     PARAM(gap, 0.002, "m", "distance at which contact of cloth with cloth sets in")
 #define cloth_repulsion_FIELDS(READ, ADD) cloth_contact_FIELDS(READ, ADD)
 TERM_ARGS(cloth_repulsion)

@@ -1,21 +1,23 @@
 // Orthotropic membrane with measured stress curves, in place of membrane.h where any fabric has one or a limit:
 //     s_uu = s_u(e_uu) + kc e_vv,   s_vv = s_v(e_vv) + kc e_uu,   s_uv = s_s(g)       [N/m]
 //     E = A (W_u(e_uu) + W_v(e_vv) + W_s(g) + kc e_uu e_vv),   W the integrals of the curves s_u, s_v, s_s   [J]
-// Source: Volino, Magnenat-Thalmann and Faure 2009, section 4, as restated in D5; curves and over-elongation limits (A3,
-// C5): stress_curve.h. Shear is odd in g; in compression the curves go on with their slopes at zero.
+// Source: Volino, Magnenat-Thalmann and Faure 2009, section 4, as restated in D5; curves and over-elongation limits
+// (A3, C5): stress_curve.h. Shear is odd in g; in compression the curves go on with their slopes at zero.
 #pragma once
 #include "../membrane_face.h"
 #include "../stress_curve.h"
 
 #define curved_membrane_PARAMS(STRENGTH, PARAM) STRENGTH(scale, 0.0, "1", "multiplies every membrane stress")
+// clang-format off
 #define curved_membrane_FIELDS(READ, ADD)                                                      \
     READ(pos) READ(face_vertex) READ(face_material) READ(face_area) READ(face_weights)          \
     READ(material_stretch) READ(material_curve) ADD(face_force) ADD(face_stiffness)
+// clang-format on
 TERM_ARGS(curved_membrane)
 
 typedef struct {
     membrane_state membrane;
-    real energy;                 // per rest area [J/m^2]
+    real energy;  // per rest area [J/m^2]
 } curved_membrane_state;
 
 KERNEL_FN curved_membrane_state curved_membrane_at(int face, const curved_membrane_args* a)

@@ -8,11 +8,14 @@
 #pragma once
 #include "../term_args.h"
 
-#define friction_PARAMS(STRENGTH, PARAM)                                                           \
-    STRENGTH(scale, 0.0, "1", "multiplies every friction coefficient")                             \
+#define friction_PARAMS(STRENGTH, PARAM)                               \
+    STRENGTH(scale, 0.0, "1", "multiplies every friction coefficient") \
     PARAM(stick_distance, 2e-4, "m", "elastic way before a vertex slides, r")
+// clang-format off
 #define friction_FIELDS(READ, ADD)                                                                 \
-    READ(pos) READ(contact_normal) READ(contact_friction) READ(friction_anchor) READ(friction_limit) ADD(force) ADD(vertex_stiffness)
+    READ(pos) READ(contact_normal) READ(contact_friction) READ(friction_anchor) READ(friction_limit) \
+    ADD(force) ADD(vertex_stiffness)
+// clang-format on
 TERM_ARGS(friction)
 
 KERNEL_FN vec3 friction_way(int vertex, const friction_args* a)

@@ -4,9 +4,9 @@
 #pragma once
 #include "../term_args.h"
 
-#define gravity_PARAMS(STRENGTH, PARAM)                                   \
-    STRENGTH(acceleration_x, 0.0, "m/s^2", "acceleration along x")        \
-    STRENGTH(acceleration_y, 0.0, "m/s^2", "acceleration along y")        \
+#define gravity_PARAMS(STRENGTH, PARAM)                            \
+    STRENGTH(acceleration_x, 0.0, "m/s^2", "acceleration along x") \
+    STRENGTH(acceleration_y, 0.0, "m/s^2", "acceleration along y") \
     STRENGTH(acceleration_z, 0.0, "m/s^2", "acceleration along z")
 #define gravity_FIELDS(READ, ADD) READ(pos) READ(mass) ADD(force)
 TERM_ARGS(gravity)

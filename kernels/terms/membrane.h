@@ -6,9 +6,11 @@
 #include "../membrane_face.h"
 
 #define membrane_PARAMS(STRENGTH, PARAM) STRENGTH(scale, 0.0, "1", "multiplies every membrane stiffness")
+// clang-format off
 #define membrane_FIELDS(READ, ADD)                                                             \
     READ(pos) READ(face_vertex) READ(face_material) READ(face_area) READ(face_weights)          \
     READ(material_stretch) ADD(face_force) ADD(face_stiffness)
+// clang-format on
 TERM_ARGS(membrane)
 
 KERNEL_FN membrane_state membrane_at(int face, const membrane_args* a)

@@ -2,20 +2,22 @@
 //     phi_h = 2 (sin(theta_h/2) - sin(theta0_h/2))                  (the hinge's turn, theta for small angles)
 //     E = 1/2 sum_hk phi_h G_hk phi_k  [J]                          M_h = sum_k G_hk phi_k  [N m]
 //     f_i = -sum_h M_h cos(theta_h/2) dtheta_h/dx_i  [N]
-// G comes from the rest mesh once (host/solver/state/plate.cpp): a curvature tensor per face from the turns of the hinges
-// around it, with the fabric's rigidities. Source: a curvature tensor per triangle as in Grinspun and others 2006 and
-// Morley 1971, the share of a hinge's turn that belongs to each side being matched to quadratic surfaces.
-// The projected stiffness drops M d2phi/dx2; what is left, J^T G J with the slopes J = dphi/dx, is never negative.
-// It reaches far: 37 blocks a row. The slots take only J^T W J, W diagonal (hinge_rigidity); the linear solver adds
-// J^T (G - W) J by hinge turns and moments, from the slopes that the stiffness function leaves behind.
+// G comes from the rest mesh once (host/solver/state/plate.cpp): a curvature tensor per face from the turns of the
+// hinges around it, with the fabric's rigidities. Source: a curvature tensor per triangle as in Grinspun and others
+// 2006 and Morley 1971, the share of a hinge's turn that belongs to each side being matched to quadratic surfaces. The
+// projected stiffness drops M d2phi/dx2; what is left, J^T G J with the slopes J = dphi/dx, is never negative. It
+// reaches far: 37 blocks a row. The slots take only J^T W J, W diagonal (hinge_rigidity); the linear solver adds J^T (G
+// - W) J by hinge turns and moments, from the slopes that the stiffness function leaves behind.
 #pragma once
 #include "../hinge.h"
 
 #define plate_PARAMS(STRENGTH, PARAM) STRENGTH(scale, 0.0, "1", "multiplies every bending rigidity")
+// clang-format off
 #define plate_FIELDS(READ, ADD)                                                                              \
     READ(pos) READ(inv_mass) READ(hinge_vertex) READ(hinge_rigidity) READ(hinge_rest_sine)                    \
     READ(coupling_slots) READ(coupling_hinge) READ(coupling_rigidity) ADD(hinge_bend) ADD(hinge_slope)        \
     ADD(hinge_force) ADD(hinge_stiffness)
+// clang-format on
 TERM_ARGS(plate)
 
 // Before anything else: every hinge's turn, which its neighbours need.

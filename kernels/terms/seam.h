@@ -6,8 +6,8 @@
 #pragma once
 #include "../term_args.h"
 
-#define seam_PARAMS(STRENGTH, PARAM)                                                \
-    STRENGTH(stiffness, 0.0, "N/m", "seam force per pair and metre of gap, k")      \
+#define seam_PARAMS(STRENGTH, PARAM)                                           \
+    STRENGTH(stiffness, 0.0, "N/m", "seam force per pair and metre of gap, k") \
     PARAM(force_limit, 0.2, "N", "largest force on a pair, F")
 #define seam_FIELDS(READ, ADD) READ(pos) READ(stitch_vertex) ADD(stitch_force) ADD(stitch_stiffness)
 TERM_ARGS(seam)

@@ -7,20 +7,22 @@
 #pragma once
 #include "../term_args.h"
 
-#define spring_PARAMS(STRENGTH, PARAM)                                                               \
-    STRENGTH(scale, 0.0, "1", "multiplies the constants of structural and shear springs")            \
+#define spring_PARAMS(STRENGTH, PARAM)                                                    \
+    STRENGTH(scale, 0.0, "1", "multiplies the constants of structural and shear springs") \
     STRENGTH(bend_scale, 0.0, "1", "multiplies the constants of bend springs")
+// clang-format off
 #define spring_FIELDS(READ, ADD)                                                                     \
     READ(pos) READ(spring_vertex) READ(spring_length) READ(spring_constant) READ(spring_limit)       \
     READ(spring_bends) ADD(spring_force) ADD(spring_stiffness)
+// clang-format on
 TERM_ARGS(spring)
 
 typedef struct {
-    vec3 n;                      // from vertex 0 to vertex 1, unit
-    real length, extension;      // l and l - l0 [m]
-    real over;                   // l - L beyond the limit, else 0 [m]
-    real k, k_over;              // k and k_L - k [N/m]
-    real tension;                // T [N]
+    vec3 n;                  // from vertex 0 to vertex 1, unit
+    real length, extension;  // l and l - l0 [m]
+    real over;               // l - L beyond the limit, else 0 [m]
+    real k, k_over;          // k and k_L - k [N/m]
+    real tension;            // T [N]
 } spring_state;
 
 KERNEL_FN spring_state spring_at(int spring, const spring_args* a)
@@ -29,7 +31,7 @@ KERNEL_FN spring_state spring_at(int spring, const spring_args* a)
     vec3 d = load3(a->pos, vs, a->spring_vertex[ss + spring]) - load3(a->pos, vs, a->spring_vertex[spring]);
     real scale = a->spring_bends[spring] ? a->bend_scale : a->scale;
     spring_state s;
-    s.length = larger(length(d), REAL(1e-12));   // two vertices in one place push in no direction
+    s.length = larger(length(d), REAL(1e-12));  // two vertices in one place push in no direction
     s.n = (REAL(1) / s.length) * d;
     s.extension = s.length - a->spring_length[spring];
     s.over = larger(s.length - a->spring_limit[spring], REAL(0));

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/SparseCholesky>
 #include <fmt/format.h>
+#include <Eigen/SparseCholesky>
 
 #include "validation/cases/cases.hpp"
 #include "validation/measure/reference.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 struct Strip {
     std::string family;
-    double width;       // over length
+    double width;  // over length
     int segments;
     double poisson;
     bool plate;
@@ -62,7 +62,7 @@ double critical_load(const SparseMatrix& bending, const SparseMatrix& prestress)
 // Weight * L^3 / D at which the strip buckles; L = 1, D = 1.
 double buckling_load(const Strip& strip)
 {
-    constexpr double unit_load = 1, stiffness = 1e6;   // [N/m^2], [N/m]: strains of 1e-6
+    constexpr double unit_load = 1, stiffness = 1e6;  // [N/m^2], [N/m]: strains of 1e-6
     Params params = heavy_plate(Vec3(0, -unit_load, 0));
     params.plate.scale = strip.plate;
     params.bending.scale = !strip.plate;
@@ -96,9 +96,9 @@ void check_buckling(CaseReport& report)
     for (const double poisson : {0.0, 0.35})
         for (const double width : {0.1, 0.5, 0.9}) {
             const int segments = width < 0.2 ? 80 : 40;
-            report.relative(fmt::format("plate, nu {:g}, w/L {:g}, alternating, n = {}: w L^3 / D", poisson, width, segments),
-                            thin_plate(width, poisson),
-                            buckling_load({"alternating", width, segments, poisson, true}), 0.03);
+            report.relative(
+                fmt::format("plate, nu {:g}, w/L {:g}, alternating, n = {}: w L^3 / D", poisson, width, segments),
+                thin_plate(width, poisson), buckling_load({"alternating", width, segments, poisson, true}), 0.03);
         }
     for (const char* family : {"same_diagonal", "cross"})
         report.relative(fmt::format("plate, nu 0.35, w/L 0.5, {}, n = 40: w L^3 / D", family), thin_plate(0.5, 0.35),

@@ -10,9 +10,9 @@
 namespace selvage {
 namespace {
 
-constexpr double length = 0.1, areal_density = 0.15, gravity = 9.81;   // [m], [kg/m^2], [m/s^2]
-constexpr double weight = areal_density * gravity;                     // [N/m^2]
-constexpr double stretch = 2e4 * weight * length;                      // stretches by less than 1e-4 [N/m]
+constexpr double length = 0.1, areal_density = 0.15, gravity = 9.81;  // [m], [kg/m^2], [m/s^2]
+constexpr double weight = areal_density * gravity;                    // [N/m^2]
+constexpr double stretch = 2e4 * weight * length;                     // stretches by less than 1e-4 [N/m]
 
 // Drop over reach of the middle of the free end.
 double drop_over_reach(const std::string& family, double gamma, int segments, Solve solve)

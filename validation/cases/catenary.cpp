@@ -11,7 +11,7 @@ namespace selvage {
 namespace {
 
 constexpr int segments = 160;
-constexpr double areal_density = 0.15, gravity = 9.81, width = 1;   // of the table: 1.4715 N per metre
+constexpr double areal_density = 0.15, gravity = 9.81, width = 1;  // of the table: 1.4715 N per metre
 
 // The rows of one case and kind: nine points each.
 struct Catenary {
@@ -28,8 +28,16 @@ std::vector<Catenary> catenaries()
         const std::string name = row.text("case"), kind = row.text("kind");
         if (kind != "inext" && kind != "elastic_stvk") continue;
         if (all.empty() || all.back().name != name || all.back().kind != kind)
-            all.push_back({name, kind, row.number("span"), row.number("rise"), row.number("length0"), row.number("EA"),
-                           row.number("T0"), row.number("T1"), {}, {}});
+            all.push_back({name,
+                           kind,
+                           row.number("span"),
+                           row.number("rise"),
+                           row.number("length0"),
+                           row.number("EA"),
+                           row.number("T0"),
+                           row.number("T1"),
+                           {},
+                           {}});
         all.back().points.emplace_back(row.number("x"), 0, row.number("y"));
         all.back().fraction.push_back(row.number("s_frac"));
     }

@@ -19,13 +19,13 @@ namespace selvage {
 namespace {
 
 struct Apparatus {
-    double specimen = 0.15, support = 0.09;   // radii [m]
+    double specimen = 0.15, support = 0.09;  // radii [m]
 };
 
-constexpr double first_fold_height = 0.005;   // [m]
+constexpr double first_fold_height = 0.005;  // [m]
 
 struct DrapeResult {
-    double coefficient = 0;   // [%]
+    double coefficient = 0;  // [%]
     int folds = 0;
 };
 
@@ -121,27 +121,33 @@ double difference(const std::vector<double>& values)
 // the smallest of causes, so meshes are judged by drapes of the same number; how far apart the others are is told.
 void compare_meshes(CaseReport& report, const Fabric& cotton, const std::string& kind, int folds)
 {
-    report.from("the same drape on other meshes; judged among equal numbers of folds, each being an equilibrium of its own");
+    report.from(
+        "the same drape on other meshes; judged among equal numbers of folds, each being an equilibrium of its own");
     std::vector<double> all;
     std::map<int, std::vector<double>> with_folds;
     const auto add = [&](const std::string& name, double edge_length, const std::string& family) {
         const DrapeResult result = drape(cotton, {}, across(edge_length), family, 6, folds);
         all.push_back(result.coefficient);
         with_folds[result.folds].push_back(result.coefficient);
-        report.inform(fmt::format("cotton broad A, {}, {}: drape coefficient [%]", kind, name), all.front(), result.coefficient);
-        report.inform(fmt::format("cotton broad A, {}, {}: folds", kind, name), folds > 0 ? folds : result.folds, result.folds);
+        report.inform(fmt::format("cotton broad A, {}, {}: drape coefficient [%]", kind, name), all.front(),
+                      result.coefficient);
+        report.inform(fmt::format("cotton broad A, {}, {}: folds", kind, name), folds > 0 ? folds : result.folds,
+                      result.folds);
     };
     add("panel mesh, 4 mm", 4e-3, "panel");
     add("panel mesh, 6 mm", 6e-3, "panel");
     add("panel mesh, 3 mm", 3e-3, "panel");
-    for (const char* family : {"equilateral", "square", "irregular"}) add(fmt::format("{}, 4 mm", family), 4e-3, family);
+    for (const char* family : {"equilateral", "square", "irregular"})
+        add(fmt::format("{}, 4 mm", family), 4e-3, family);
     for (const auto& [count, alike] : with_folds)
         if (alike.size() > 1)
-            report.absolute(fmt::format("cotton broad A, {}, {} meshes with {} folds: largest difference [points]", kind,
-                                        alike.size(), count), 0, difference(alike), 2);
+            report.absolute(fmt::format("cotton broad A, {}, {} meshes with {} folds: largest difference [points]",
+                                        kind, alike.size(), count),
+                            0, difference(alike), 2);
     if (with_folds.size() > 1)
-        report.inform(fmt::format("cotton broad A, {}, all meshes, folds mixed: largest difference, 2 if alike [points]", kind), 2,
-                      difference(all));
+        report.inform(
+            fmt::format("cotton broad A, {}, all meshes, folds mixed: largest difference, 2 if alike [points]", kind),
+            2, difference(all));
     if (folds > 0)
         report.absolute(fmt::format("cotton broad A, {}: meshes that keep them", kind), double(all.size()),
                         double(with_folds[folds].size()), 0);
@@ -166,14 +172,15 @@ void check_cusick(CaseReport& report)
         report.inform(fmt::format("{}, dropped, 6 mm: folds", name), folds, dropped.folds);
         if (report.quick()) continue;
         const DrapeResult other = drape(fabric, {0.127, 0.0635}, int(std::lround(0.254 / edge_length)) + 1);
-        report.inform(fmt::format("{}, 25.4 cm on 12.7 cm: drape coefficient [%]", name), coefficient, other.coefficient);
+        report.inform(fmt::format("{}, 25.4 cm on 12.7 cm: drape coefficient [%]", name), coefficient,
+                      other.coefficient);
         report.inform(fmt::format("{}, 25.4 cm on 12.7 cm: folds", name), folds, other.folds);
     }
     if (report.quick()) return;
     double coefficient = 0;
     int folds = 0;
     Fabric cotton = measured_fabric("cotton broad", coefficient, folds);
-    cotton.hysteresis_weft = cotton.hysteresis_warp = 0;   // with it a drape depends on its way
+    cotton.hysteresis_weft = cotton.hysteresis_warp = 0;  // with it a drape depends on its way
     compare_meshes(report, cotton, "elastic, left alone", 0);
     compare_meshes(report, cotton, "elastic, begun with five folds", 5);
 }

@@ -1,9 +1,10 @@
-// Frequencies of small vibrations about equilibria: K q = omega^2 M q with the exact stiffness, oscillation_references.csv.
+// Frequencies of small vibrations about equilibria: K q = omega^2 M q with the exact stiffness,
+// oscillation_references.csv.
 #include <cmath>
 #include <sstream>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "validation/cases/cases.hpp"
 #include "validation/measure/reference.hpp"
@@ -50,7 +51,7 @@ Cloth ribbon(int count)
     return cloth;
 }
 
-constexpr double gravity = 9.81;   // [m/s^2]
+constexpr double gravity = 9.81;  // [m/s^2]
 
 Params heavy_membrane()
 {
@@ -84,8 +85,8 @@ void chain(CaseReport& report, int count)
     }
 }
 
-// A heavy chain without links: the ribbon with the masses that its cloth has. Its edges swing apart from each other, the
-// one with a third of a link's mass at its tip and the other with two thirds; their mean is the ribbon's.
+// A heavy chain without links: the ribbon with the masses that its cloth has. Its edges swing apart from each other,
+// the one with a third of a link's mass at its tip and the other with two thirds; their mean is the ribbon's.
 void continuous_chain(CaseReport& report)
 {
     constexpr double areal_density = 0.2, width = 0.1;

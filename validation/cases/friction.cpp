@@ -39,7 +39,7 @@ struct Contact {
 // The gap at which the barrier bears a pressure [m].
 double resting_gap(const Params& params, double pressure)
 {
-    double low = 0.02, high = 1;   // of the contact gap
+    double low = 0.02, high = 1;  // of the contact gap
     for (int k = 0; k < 60; ++k) {
         const double middle = 0.5 * (low + high);
         (-params.body_contact.stiffness * barrier_at(middle).slope > pressure ? low : high) = middle;
@@ -55,8 +55,8 @@ double mean_of(const State& state, const std::vector<real>& plane)
 }
 
 struct Slide {
-    double acceleration = 0;   // [m/s^2]
-    double creep = 0;          // [m/s]
+    double acceleration = 0;  // [m/s^2]
+    double creep = 0;         // [m/s]
 };
 
 // Means over the second half of a second. Gravity is tilted instead of the plane, which falls towards +x.
@@ -106,9 +106,11 @@ void check_incline(CaseReport& report, const char* scheme)
     }
 }
 
-constexpr double radius = 0.1, width = 0.01, arc_step = 3 * degree, lead = 0.25, pull_speed = 0.02;   // [m], [rad], [m/s]
+constexpr double radius = 0.1, width = 0.01, arc_step = 3 * degree, lead = 0.25,
+                 pull_speed = 0.02;  // [m], [rad], [m/s]
 
-// A strip wrapped around the cylinder about y by an angle, tangent at both ends; its rest length is shorter by the strain.
+// A strip wrapped around the cylinder about y by an angle, tangent at both ends; its rest length is shorter by the
+// strain.
 Cloth wrapped_strip(double wrap, double strain, double gap)
 {
     const double r = radius + gap, arc = r * wrap, step = r * arc_step;
@@ -116,7 +118,7 @@ Cloth wrapped_strip(double wrap, double strain, double gap)
     Cloth cloth;
     for (const double y : {-0.5 * width, 0.5 * width})
         for (int i = 0; i < columns; ++i) {
-            const double s = (arc + 2 * lead) * i / (columns - 1) - lead;   // 0 where the wrap begins
+            const double s = (arc + 2 * lead) * i / (columns - 1) - lead;  // 0 where the wrap begins
             const double on_arc = std::clamp(s, 0.0, arc), angle = on_arc / r, beyond = s - on_arc;
             const Vec3 radial(std::sin(angle), 0, std::cos(angle)), along(std::cos(angle), 0, -std::sin(angle));
             cloth.positions.push_back(r * radial + beyond * along + Vec3(0, y, 0));
@@ -169,14 +171,15 @@ double capstan_ratio(double wrap, double friction)
     for (int step = 0; step < (edges_before + 1) * steps_per_edge; ++step) {
         for (double left = dt; left > 1e-9;) left -= control.advance(left, newton, true);
         if (step < edges_before * steps_per_edge) continue;
-        phase.newton().static_residual();   // leaves the forces behind
+        phase.newton().static_residual();  // leaves the forces behind
         slack_side += pull_on(phase.state(), 0, columns);
         tight_side += pull_on(phase.state(), columns - 1, 2 * columns - 1);
     }
     return tight_side / slack_side;
 }
 
-// Where the slack side bears a five-hundredth of the tight one, its tension is as small as what the steps leave unsolved.
+// Where the slack side bears a five-hundredth of the tight one, its tension is as small as what the steps leave
+// unsolved.
 constexpr double measurable = 100;
 
 void check_capstan(CaseReport& report)

@@ -29,7 +29,7 @@ void step_factors(CaseReport& report)
             std::vector<double> motion;
             for (int k = 0; k < 1000; ++k) {
                 oscillator.step(dt);
-                if (k >= 30) motion.push_back(oscillator.height());   // the first step of BDF2 dies out
+                if (k >= 30) motion.push_back(oscillator.height());  // the first step of BDF2 dies out
             }
             const StepFactor factor = fit_step_factor(motion, dt);
             const std::string key = std::string(reference) + "_omega_dt=" + label;
@@ -45,7 +45,8 @@ void step_factors(CaseReport& report)
 
 void damped(CaseReport& report)
 {
-    for (const auto& [name, tolerance] : {std::pair{"rk4", 1e-6}, {"implicit_midpoint", 1e-3}, {"velocity_verlet", 1e-3}}) {
+    for (const auto& [name, tolerance] :
+         {std::pair{"rk4", 1e-6}, {"implicit_midpoint", 1e-3}, {"velocity_verlet", 1e-3}}) {
         Oscillator oscillator(name, 10, 0.4, 1e-4);
         for (int k = 0; k < 2000; ++k) oscillator.step(1e-3);
         report.absolute(fmt::format("{}, dt 0.001: damped oscillator, x(2) / x0", name),
@@ -70,7 +71,8 @@ public:
         PhaseOptions options;
         options.params.spring.scale = 1;
         options.params.gravity.acceleration_z = -9.81;
-        phase_ = std::make_unique<Phase>(model_, options, nullptr, profile_, model_.cloth.positions, std::vector<Vec3>());
+        phase_ =
+            std::make_unique<Phase>(model_, options, nullptr, profile_, model_.cloth.positions, std::vector<Vec3>());
         State& s = phase_->state();
         const int ss = s.size.spring_stride;
         for (int k = 0; k < s.size.spring_count; ++k) {
@@ -97,7 +99,8 @@ void elastic_pendulum(CaseReport& report)
 {
     constexpr double dt = 5e-4;
     const std::string test = "elastic_pendulum_m1_k100_L1_c0_theta30";
-    for (const auto& [name, tolerance] : {std::pair{"rk4", 1e-9}, {"implicit_midpoint", 2e-5}, {"velocity_verlet", 2e-5}}) {
+    for (const auto& [name, tolerance] :
+         {std::pair{"rk4", 1e-9}, {"implicit_midpoint", 2e-5}, {"velocity_verlet", 2e-5}}) {
         ElasticPendulum pendulum(name);
         int done = 0;
         for (const char* time : {"0.5", "1", "2", "5"}) {
@@ -192,7 +195,8 @@ void free_fall(CaseReport& report, const IntegratorInfo& info)
     // Explicit schemes would multiply rounding errors at steps above their stability limit.
     const double mass = 0.2 * 0.15 * 0.15, dt = info.is_explicit ? 1e-3 : 1e-2;
     sheet.run(phase, info.name, dt, int(std::lround(1 / dt)));
-    report.from("oscillation_references.csv: free fall; first-order schemes and the first step of BDF2 make their known error");
+    report.from(
+        "oscillation_references.csv: free fall; first-order schemes and the first step of BDF2 make their known error");
     report.relative(fmt::format("{}: momentum after 1 s of free fall [kg m/s]", info.name), -9.81 * mass,
                     momentum(phase.state(), false).z(), 1e-9);
     if (info.name == "bdf2") return;
@@ -216,10 +220,11 @@ void rotation(CaseReport& report, const IntegratorInfo& info)
     const double turned = momentum(phase.state(), true).z();
     const double total = phase.newton().kinetic_energy() + phase.newton().potential_energy();
     // Central differences know the velocity to second order only, the others damp or gain.
-    const bool keeps_spin = info.name == "implicit_midpoint" || info.name == "velocity_verlet" ||
-                            info.name == "symplectic_euler";
+    const bool keeps_spin =
+        info.name == "implicit_midpoint" || info.name == "velocity_verlet" || info.name == "symplectic_euler";
     if (!keeps_spin) {
-        report.inform(fmt::format("{}: free spinning sheet, angular momentum [kg m^2/s]", info.name), angular.z(), turned);
+        report.inform(fmt::format("{}: free spinning sheet, angular momentum [kg m^2/s]", info.name), angular.z(),
+                      turned);
         return;
     }
     report.relative(fmt::format("{}: free spinning sheet, angular momentum [kg m^2/s]", info.name), angular.z(), turned,
@@ -253,7 +258,8 @@ void joining(CaseReport& report)
             }
     }
     report.from("conservation of mass and momentum");
-    report.absolute("seams join: change of momentum, relative", 0, (total[1] - total[0]).norm() / total[0].norm(), 1e-12);
+    report.absolute("seams join: change of momentum, relative", 0, (total[1] - total[0]).norm() / total[0].norm(),
+                    1e-12);
     report.absolute("seams join: change of the centre of mass, relative", 0,
                     (centre[1] - centre[0]).norm() / centre[0].norm(), 1e-12);
 }
@@ -273,7 +279,10 @@ void check_integrators(CaseReport& report)
         if (info.order == 0) continue;
         report.from("theory of the scheme");
         report.absolute(fmt::format("{}: observed order", info.name), info.order,
-                        observed_order(info.name, info.is_explicit ? 100 : info.order == 1 ? 1600 : 200), 0.15);
+                        observed_order(info.name, info.is_explicit  ? 100
+                                                  : info.order == 1 ? 1600
+                                                                    : 200),
+                        0.15);
         free_fall(report, info);
         rotation(report, info);
     }

@@ -11,7 +11,10 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double relative_error(double reference, double measured) { return std::abs(measured - reference) / std::abs(reference); }
+double relative_error(double reference, double measured)
+{
+    return std::abs(measured - reference) / std::abs(reference);
+}
 
 }  // namespace
 
@@ -53,7 +56,9 @@ std::string validation_table(const std::vector<ValidationRow>& rows)
         text += fmt::format("{:<12} {:<{}} {:>14.8g} {:>14.8g} {:>9.2e} {:>9}  {}\n", row.group, row.quantity, widest,
                             row.reference, row.measured, row.error,
                             row.judged() ? fmt::format("{:.1e}", row.tolerance) : "-",
-                            !row.judged() ? "information" : row.pass ? "pass" : "FAIL");
+                            !row.judged() ? "information"
+                            : row.pass    ? "pass"
+                                          : "FAIL");
     }
     return text + fmt::format("{} of {} pass, {} rows are information\n", passed, judged, int(rows.size()) - judged);
 }

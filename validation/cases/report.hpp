@@ -9,9 +9,9 @@ struct ValidationRow {
     std::string group, quantity;
     double reference = 0, measured = 0;
     double error = 0;
-    double tolerance = 0;   ///< NaN: information only, there is no verdict.
+    double tolerance = 0;  ///< NaN: information only, there is no verdict.
     bool pass = true;
-    std::string source;     ///< Where the reference comes from.
+    std::string source;  ///< Where the reference comes from.
 
     bool judged() const { return tolerance == tolerance; }
 };

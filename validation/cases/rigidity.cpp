@@ -4,8 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <Eigen/SparseCholesky>
 #include <fmt/format.h>
+#include <Eigen/SparseCholesky>
 
 #include "host/mesh/sheet_families.hpp"
 #include "kernels/hinge.h"
@@ -17,9 +17,9 @@
 namespace selvage {
 namespace {
 
-constexpr double directions[] = {0, 22.5, 45, 67.5, 90};   // [degrees]
-constexpr int columns = 48, window = 24, band = 4;         // cells: of the sheet, of what is measured, held at the rim
-constexpr double curvature = 1e-3;                         // so small that angles are those of a flat plate [1/m]
+constexpr double directions[] = {0, 22.5, 45, 67.5, 90};  // [degrees]
+constexpr int columns = 48, window = 24, band = 4;        // cells: of the sheet, of what is measured, held at the rim
+constexpr double curvature = 1e-3;                        // so small that angles are those of a flat plate [1/m]
 
 double row_height(const std::string& family)
 {
@@ -38,7 +38,8 @@ double window_energy(const State& s, const std::vector<Vec2>& rest, double row)
         const double j = middle.y() / row - 0.1 + window / 2;
         if (i < 0 || i >= window || j < 0 || j >= window) continue;
         double moment = 0;
-        if (s.coupling_slots.empty()) moment = s.hinge_rigidity[h] * turn(h);
+        if (s.coupling_slots.empty())
+            moment = s.hinge_rigidity[h] * turn(h);
         else
             for (int k = s.coupling_slots[h]; k < s.coupling_slots[hs + h]; ++k)
                 moment += s.coupling_rigidity[k] * turn(s.coupling_hinge[k]);
@@ -83,8 +84,7 @@ double shown_rigidity(const std::string& family, double angle, bool plate)
     const Vec2 along(std::cos(angle * std::numbers::pi / 180), std::sin(angle * std::numbers::pi / 180));
     std::vector<double> height;
     for (const Vec2& x : cloth.panel_coordinates) height.push_back(0.5 * curvature * std::pow(along.dot(x), 2));
-    for (int v = 0; v < int(height.size()); ++v)
-        sheet.place(v, sheet.position(v) + Vec3(0, 0, height[v]));
+    for (int v = 0; v < int(height.size()); ++v) sheet.place(v, sheet.position(v) + Vec3(0, 0, height[v]));
     relax_inside(sheet, cloth.panel_coordinates, row);
     const double area = double(window) * window * row / columns;
     return 2 * window_energy(sheet.state(), cloth.panel_coordinates, row) / (area * curvature * curvature);
@@ -105,7 +105,8 @@ double hinge_rigidity(const std::string& mesh, double angle)
 // Drop of the free end over w L^4 / (8 D) under a load so small that the elastica is a beam.
 double tip_drop(const std::string& family)
 {
-    constexpr double length = 0.1, weight = 9.81 * 0.15, gamma = 0.01, rigidity = weight * length * length * length / gamma;
+    constexpr double length = 0.1, weight = 9.81 * 0.15, gamma = 0.01,
+                     rigidity = weight * length * length * length / gamma;
     const Cloth cloth = clamped_strip(family, length, 0.25 * length, 24);
     Specimen strip(cloth, isotropic_fabric(2e4 * weight * length, rigidity, 0, 0.15), heavy_plate(Vec3(0, 0, -9.81)));
     strip.balance(1e-8);

@@ -12,7 +12,7 @@
 namespace selvage {
 namespace {
 
-constexpr double width = 0.6, height = 0.4, stiffness = 100;   // [m], [m], [N/m]
+constexpr double width = 0.6, height = 0.4, stiffness = 100;  // [m], [m], [N/m]
 
 Mat2 matrix(const ReferenceRow& row, const std::string& name)
 {
@@ -33,7 +33,7 @@ Fabric fabric_of(const ReferenceRow& row)
 }
 
 struct Mismatch {
-    double force = 0, energy = 0;   // relative
+    double force = 0, energy = 0;  // relative
 };
 
 // Vertices of the edge on which x (axis 0) or y (axis 1) is largest.
@@ -103,8 +103,8 @@ void check_stretch(CaseReport& report)
     for (const auto& [name, at] : worst) {
         report.absolute(fmt::format("{}: edge force, worst of {} strains, relative", name, at.count), 0,
                         at.mismatch.force, 1e-10);
-        report.absolute(fmt::format("{}: energy, worst of {} strains, relative", name, at.count), 0,
-                        at.mismatch.energy, 1e-10);
+        report.absolute(fmt::format("{}: energy, worst of {} strains, relative", name, at.count), 0, at.mismatch.energy,
+                        1e-10);
     }
 }
 

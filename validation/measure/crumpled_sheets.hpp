@@ -14,7 +14,8 @@ inline void add_panel(Cloth& cloth, const Cloth& panel, const Vec3& at)
     const int first_vertex = int(cloth.positions.size()), first_face = int(cloth.faces.size());
     for (const Vec2& u : panel.panel_coordinates) cloth.panel_coordinates.push_back(u);
     for (const Vec3& x : panel.positions) cloth.positions.push_back(x + at);
-    for (const Face& f : panel.faces) cloth.faces.push_back({f[0] + first_vertex, f[1] + first_vertex, f[2] + first_vertex});
+    for (const Face& f : panel.faces)
+        cloth.faces.push_back({f[0] + first_vertex, f[1] + first_vertex, f[2] + first_vertex});
     cloth.panels.push_back(panel.panels[0]);
     cloth.panels.back().first_vertex = first_vertex;
     cloth.panels.back().first_face = first_face;
@@ -43,7 +44,8 @@ inline TriangleMesh box_mesh(const Vec3& low, const Vec3& size)
     return mesh;
 }
 
-/// Random smooth displacements of points of a cloth: waves of its rest coordinates, of the given size [m] at most about.
+/// Random smooth displacements of points of a cloth: waves of its rest coordinates, of the given size [m] at most
+/// about.
 inline std::vector<Vec3> random_waves(const Cloth& cloth, double size, double longest, std::mt19937& random)
 {
     std::uniform_real_distribution<double> uniform(-1, 1);

@@ -72,7 +72,7 @@ int count_folds(const std::vector<double>& radius)
     int folds = 0;
     bool outside = radius.back() > mean;
     for (int round = 0; round < 2; ++round) {
-        folds = 0;   // the first round only finds the state in which the second one starts
+        folds = 0;  // the first round only finds the state in which the second one starts
         for (const double r : radius) {
             if (!outside && r > mean + band) ++folds;
             if (r > mean + band) outside = true;

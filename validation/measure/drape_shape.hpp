@@ -7,8 +7,8 @@ namespace selvage {
 
 /// What a drape meter sees of a draped cloth from above.
 struct DrapeShadow {
-    double area = 0;   ///< Of the union of all faces' projections along z [m^2].
-    int folds = 0;     ///< How often its outline bulges out, counted around the origin.
+    double area = 0;  ///< Of the union of all faces' projections along z [m^2].
+    int folds = 0;    ///< How often its outline bulges out, counted around the origin.
 };
 
 /// Rasterises the projections of all faces.

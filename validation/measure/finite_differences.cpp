@@ -83,12 +83,13 @@ Eigen::MatrixXd differenced_stiffness(const Term& term, State& state, const Para
     const std::vector<int> dofs = active_dofs(state);
     Eigen::MatrixXd stiffness(dofs.size(), dofs.size());
     const bool contact = term.name == "cloth_contact", repulsion = term.name == "cloth_repulsion";
-    if (contact || repulsion) term_force(term, state, params);   // finds the frames
+    if (contact || repulsion) term_force(term, state, params);  // finds the frames
     const auto force = [&] {
         if (contact)
             return force_in_kept_frames<cloth_contact_force, cloth_contact_args>(state, params.cloth_contact.stiffness);
         if (repulsion)
-            return force_in_kept_frames<cloth_repulsion_force, cloth_repulsion_args>(state, params.cloth_repulsion.stiffness);
+            return force_in_kept_frames<cloth_repulsion_force, cloth_repulsion_args>(state,
+                                                                                     params.cloth_repulsion.stiffness);
         return term_force(term, state, params);
     };
     for (int j = 0; j < int(dofs.size()); ++j) {

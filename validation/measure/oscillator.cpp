@@ -9,8 +9,8 @@
 namespace selvage {
 namespace {
 
-constexpr int middle = 4;                            // of the nine vertices
-constexpr double spacing = 10, stiffness = 1, stretch = 1.1;   // [m], [N/m], [1]
+constexpr int middle = 4;                                     // of the nine vertices
+constexpr double spacing = 10, stiffness = 1, stretch = 1.1;  // [m], [N/m], [1]
 
 ClothModel small_membrane(double drag)
 {

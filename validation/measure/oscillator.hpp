@@ -20,9 +20,9 @@ public:
     Oscillator(std::string_view integrator, double frequency, double drag, double start);
 
     void step(double dt);
-    double height() const;    ///< Over that at the start [1].
-    double speed() const;     ///< Of height() [1/s].
-    double energy();          ///< Above that of the flat membrane, plus the kinetic one [J].
+    double height() const;  ///< Over that at the start [1].
+    double speed() const;   ///< Of height() [1/s].
+    double energy();        ///< Above that of the flat membrane, plus the kinetic one [J].
 
 private:
     double start_;
@@ -35,8 +35,8 @@ private:
 
 /// How a motion x_k changes from step to step: x_(k+1) = 2 a cos(w dt) x_k - a^2 x_(k-1), fitted to all of them.
 struct StepFactor {
-    double amplitude = 1;   ///< a.
-    double frequency = 0;   ///< w [rad/s].
+    double amplitude = 1;  ///< a.
+    double frequency = 0;  ///< w [rad/s].
 };
 StepFactor fit_step_factor(const std::vector<double>& motion, double dt);
 

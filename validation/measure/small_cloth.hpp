@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "host/collision/ccd.hpp"
-#include "host/solver/terms/cloth_state.hpp"
 #include "host/solver/state/springs.hpp"
-#include "host/solver/terms/terms.hpp"
 #include "host/solver/state/topology.hpp"
+#include "host/solver/terms/cloth_state.hpp"
+#include "host/solver/terms/terms.hpp"
 
 namespace selvage {
 
@@ -16,7 +16,11 @@ inline Params unit_strengths()
     Params params;
 #define STRENGTH(name, initial, unit, meaning) values.name = 1;
 #define PARAM(name, initial, unit, meaning)
-#define TERM(term, per, nature, stage) { auto& values = params.term; term##_PARAMS(STRENGTH, PARAM) }
+#define TERM(term, per, nature, stage) \
+    {                                  \
+        auto& values = params.term;    \
+        term##_PARAMS(STRENGTH, PARAM) \
+    }
     TERMS(TERM)
 #undef TERM
 #undef PARAM
@@ -116,7 +120,8 @@ inline void list_pair_slots(State& state)
 inline void add_contacts(State& state, const Params& params, bool touches_body, std::mt19937& random)
 {
     std::uniform_real_distribution<real> uniform(-1, 1);
-    const std::vector<std::array<int, 5>> pairs{{5, 0, 2, 9, 0}, {5, 10, 6, 9, 1}, {-1, 6, 7, 11, 0}, {8, 13, -2, -3, 1}};
+    const std::vector<std::array<int, 5>> pairs{
+        {5, 0, 2, 9, 0}, {5, 10, 6, 9, 1}, {-1, 6, 7, 11, 0}, {8, 13, -2, -3, 1}};
     const int count = touches_body ? 4 : 2;
     state.set_pairs(count);
     state.set_body_points(touches_body ? 3 : 0);
@@ -169,7 +174,8 @@ inline State crumpled_state(const Params& params, unsigned seed = 7, bool touche
             state.vel[c * vs + v] = uniform(random);
             state.contact_normal[c * vs + v] = normal[c];
             along += normal[c] * state.pos[c * vs + v];
-            state.friction_anchor[c * vs + v] = state.pos[c * vs + v] + params.friction.stick_distance * uniform(random);
+            state.friction_anchor[c * vs + v] =
+                state.pos[c * vs + v] + params.friction.stick_distance * uniform(random);
         }
         state.contact_offset[v] = along - params.body_contact.gap * (0.6 + 0.5 * uniform(random));
         state.friction_limit[v] = 1 + uniform(random);

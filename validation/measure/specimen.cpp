@@ -14,8 +14,7 @@ namespace {
 
 std::unique_ptr<LinearSolver> make_solver(const State& state, Solve solve)
 {
-    if (solve == Solve::iterative)
-        return make_linear_solver_double(state, {Preconditioner::block_jacobi, 40000}, {});
+    if (solve == Solve::iterative) return make_linear_solver_double(state, {Preconditioner::block_jacobi, 40000}, {});
     return make_direct_solver(solve == Solve::direct_in_plane);
 }
 
@@ -25,8 +24,7 @@ std::vector<int> left_rim(const Cloth& cloth)
     std::vector<int> rim;
     for (int v = 0; v < int(cloth.positions.size()); ++v)
         if (cloth.positions[v].x() < 1e-9) rim.push_back(v);
-    std::sort(rim.begin(), rim.end(),
-              [&](int a, int b) { return cloth.positions[a].y() < cloth.positions[b].y(); });
+    std::sort(rim.begin(), rim.end(), [&](int a, int b) { return cloth.positions[a].y() < cloth.positions[b].y(); });
     return rim;
 }
 
@@ -48,8 +46,8 @@ Fabric isotropic_fabric(double stiffness, double rigidity, double poisson, doubl
 }
 
 Specimen::Specimen(const Cloth& cloth, const Fabric& fabric, const Params& params, Solve solve)
-    : params_(params), state_(make_state(make_topology(cloth, true), cloth, {{specimen_fabric, fabric}}, params,
-                                         cloth.positions, {})),
+    : params_(params),
+      state_(make_state(make_topology(cloth, true), cloth, {{specimen_fabric, fabric}}, params, cloth.positions, {})),
       linear_(make_solver(state_, solve)),
       newton_(std::make_unique<Newton>(state_, params_, *linear_, nullptr, nullptr, profile_))
 {
@@ -89,7 +87,7 @@ void Specimen::balance(double tolerance)
         last.tolerance = tolerance;
         residual = newton_->relax(last).residual;
     }
-    newton_->static_residual();   // leaves the forces of the final state behind
+    newton_->static_residual();  // leaves the forces of the final state behind
     if (!(residual <= tolerance))
         throw std::runtime_error(fmt::format("no equilibrium: residual {:.2e}, wanted {:.0e}", residual, tolerance));
 }

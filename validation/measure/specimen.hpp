@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/solver/terms/cloth_state.hpp"
 #include "host/solver/stepping/newton.hpp"
+#include "host/solver/terms/cloth_state.hpp"
 
 namespace selvage {
 

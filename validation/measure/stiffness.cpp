@@ -31,7 +31,8 @@ void add_pairs(const State& state, Triplets& entries)
             const int a = ab / 4, b = ab % 4, va = state.pair_vertex[a * ps + p], vb = state.pair_vertex[b * ps + p];
             if (va < 0 || vb < 0) continue;
             for (int c = 0; c < 9; ++c) {
-                const double contact = state.pair_weight[a * ps + p] * state.pair_weight[b * ps + p] * state.pair_stiffness[9 * p + c];
+                const double contact =
+                    state.pair_weight[a * ps + p] * state.pair_weight[b * ps + p] * state.pair_stiffness[9 * p + c];
                 const double friction = state.pair_held_weight.empty()
                                             ? 0
                                             : state.pair_held_weight[a * ps + p] * state.pair_held_weight[b * ps + p] *
@@ -68,8 +69,9 @@ SparseMatrix slot_stiffness(const State& state, bool coupled)
     for (int v = 0; v < n && !state.vertex_stiffness.empty(); ++v)
         for (int c = 0; c < 9; ++c)
             entries.emplace_back(3 * v + c / 3, 3 * v + c % 3, state.vertex_stiffness[9 * v + c]);
-#define ADD(kind, corners) \
-    add_elements(corners, state.size.kind##_count, state.size.kind##_stride, state.kind##_vertex, state.kind##_stiffness, entries);
+#define ADD(kind, corners)                                                                        \
+    add_elements(corners, state.size.kind##_count, state.size.kind##_stride, state.kind##_vertex, \
+                 state.kind##_stiffness, entries);
     ELEMENT_KINDS(ADD)
 #undef ADD
     add_pairs(state, entries);
@@ -105,7 +107,8 @@ SparseMatrix submatrix(const SparseMatrix& matrix, const std::vector<int>& kept)
     Triplets entries;
     for (int column = 0; column < int(matrix.outerSize()); ++column)
         for (SparseMatrix::InnerIterator it(matrix, column); it; ++it)
-            if (place[it.row()] >= 0 && place[column] >= 0) entries.emplace_back(place[it.row()], place[column], it.value());
+            if (place[it.row()] >= 0 && place[column] >= 0)
+                entries.emplace_back(place[it.row()], place[column], it.value());
     SparseMatrix result(int(kept.size()), int(kept.size()));
     result.setFromTriplets(entries.begin(), entries.end());
     return result;

@@ -1,7 +1,7 @@
 #include "host/solver/contact/anchors.hpp"
 
-#include "host/solver/contact/body_contact.hpp"
 #include "host/parallel/launch.hpp"
+#include "host/solver/contact/body_contact.hpp"
 #include "kernels/stages/settle_hysteresis.h"
 
 namespace selvage {

@@ -1,6 +1,6 @@
 #pragma once
-#include "host/solver/terms/params.hpp"
 #include "host/solver/state/state.hpp"
+#include "host/solver/terms/params.hpp"
 
 namespace selvage {
 

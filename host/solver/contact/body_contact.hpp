@@ -1,6 +1,6 @@
 #pragma once
-#include "host/solver/terms/params.hpp"
 #include "host/solver/state/state.hpp"
+#include "host/solver/terms/params.hpp"
 
 namespace selvage {
 
@@ -14,7 +14,7 @@ public:
     virtual bool crossed(const State& state, const std::vector<real>& from) = 0;
     /// Vertices further than this from any body may move freely in one iteration [m].
     virtual double search_radius() const = 0;
-    virtual int contact_count() const = 0;   ///< Vertices within the contact gap after the last update.
+    virtual int contact_count() const = 0;  ///< Vertices within the contact gap after the last update.
 };
 
 /// Lets every friction anchor slip to within the stick distance and sets the limits from the normal forces.

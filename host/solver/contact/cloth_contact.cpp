@@ -4,23 +4,23 @@
 #include <atomic>
 #include <cmath>
 
-#include "host/solver/contact/fabric_contact.hpp"
 #include "host/parallel/launch.hpp"
+#include "host/solver/contact/fabric_contact.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double keep = 0.1;             // part of a pair's distance that a move leaves, or of the gap if that is less
-constexpr double held_keep = 0.5;        // the same for moves of bodies and held vertices: cloth makes way in between
-constexpr double apart = 5e-3;           // of the gap: what pairs never come to, as their barrier has it
-constexpr double scarce = 1e-6;          // part of the gap: pairs as near as that come nearer by small parts only
-constexpr double held_scarce = 1e-4;     // the same for moves of bodies and held vertices
-constexpr double nearly_all = 0.9;       // such a small part leaves this much
-constexpr double slack_of_edge = 0.1;   // slack of the tree's boxes, of an edge length
-constexpr float jammed = 0.05f;           // part of the way of pins: with less they go on without what follows them
-constexpr float most_ahead = 0.25f;      // the part that they then go, so that the cloth can make way
-constexpr double body_part = 0.25;       // of the gap: where edges and corners of bodies press; before, vertices do
-constexpr int rounds = 4;                // of holding vertices back before the whole move is scaled
+constexpr double keep = 0.1;           // part of a pair's distance that a move leaves, or of the gap if that is less
+constexpr double held_keep = 0.5;      // the same for moves of bodies and held vertices: cloth makes way in between
+constexpr double apart = 5e-3;         // of the gap: what pairs never come to, as their barrier has it
+constexpr double scarce = 1e-6;        // part of the gap: pairs as near as that come nearer by small parts only
+constexpr double held_scarce = 1e-4;   // the same for moves of bodies and held vertices
+constexpr double nearly_all = 0.9;     // such a small part leaves this much
+constexpr double slack_of_edge = 0.1;  // slack of the tree's boxes, of an edge length
+constexpr float jammed = 0.05f;        // part of the way of pins: with less they go on without what follows them
+constexpr float most_ahead = 0.25f;    // the part that they then go, so that the cloth can make way
+constexpr double body_part = 0.25;     // of the gap: where edges and corners of bodies press; before, vertices do
+constexpr int rounds = 4;              // of holding vertices back before the whole move is scaled
 
 std::vector<Body> touchable(const std::vector<Body>& bodies, const Cloth& cloth)
 {
@@ -41,8 +41,9 @@ TreeSurface whole_surface(const Topology& topology, const Cloth& cloth, const st
 
 ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
                            std::vector<double> friction)
-    : gap_(gap), body_gap_(body_part * gap), friction_(std::move(friction)), area_(std::size_t(topology.particle_count)),
-      faces_(topology.faces), bodies_(touchable(bodies, cloth)), keep_(keep), nearest_(scarce * gap),
+    : gap_(gap), body_gap_(body_part * gap), friction_(std::move(friction)),
+      area_(std::size_t(topology.particle_count)), faces_(topology.faces), bodies_(touchable(bodies, cloth)),
+      keep_(keep), nearest_(scarce * gap),
       tree_(whole_surface(topology, cloth, bodies_), slack_of_edge * typical_edge(cloth)), tangled_(area_.size()),
       inside_(area_.size()), pierced_(area_.size())
 {
@@ -91,8 +92,8 @@ double ClothContact::gap_of(const PairCandidate& candidate) const
     return candidate.edges || candidate.corner[0] < 0 ? body_gap_ : 0;
 }
 
-// How near a pair may come in one move. No barrier lets it come to a two-hundredth of its gap, and many moves one after the
-// other must not lead to where rounding decides either.
+// How near a pair may come in one move. No barrier lets it come to a two-hundredth of its gap, and many moves one after
+// the other must not lead to where rounding decides either.
 double ClothContact::least_distance(const PairCandidate& candidate, const Look& look) const
 {
     const bool body = std::min(candidate.corner[0], candidate.corner[3]) < 0;
@@ -135,8 +136,10 @@ void ClothContact::measure_ways(const Way& way)
         for (int c = 0; c < 3; ++c) mean[c] = sum_items(n, [&](int v) { return component(v, c); }) / n;
         return mean;
     };
-    const Vec3 gone = first ? Vec3(Vec3::Zero()) : mean_of([&](int v, int c) { return way.pos[c * way.stride + v] - seen_[v][c]; });
-    const Vec3 ahead = way.move ? mean_of([&](int v, int c) { return (*way.move)[c * way.stride + v]; }) : Vec3(Vec3::Zero());
+    const Vec3 gone =
+        first ? Vec3(Vec3::Zero()) : mean_of([&](int v, int c) { return way.pos[c * way.stride + v] - seen_[v][c]; });
+    const Vec3 ahead =
+        way.move ? mean_of([&](int v, int c) { return (*way.move)[c * way.stride + v]; }) : Vec3(Vec3::Zero());
     for_each_item(n + m, [&, this](int k) {
         const int corner = k < n ? k : n - 1 - k;
         const Vec3 x = place(corner, way);
@@ -146,7 +149,8 @@ void ClothContact::measure_ways(const Way& way)
     });
 }
 
-// Measures those candidates that may be in contact on the way; of the others a bound is enough to know that they are not.
+// Measures those candidates that may be in contact on the way; of the others a bound is enough to know that they are
+// not.
 void ClothContact::look_at_all(const State&, const Way& way, bool afresh)
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
@@ -188,7 +192,7 @@ void ClothContact::clear_way(State& state, std::vector<real>& move, bool uniform
         free = !hold_back(move, way, free_parts(way));
         if (free) break;
         cut = true;
-        cover(state, way);   // what moved along with a vertex that is held back now comes nearer to it
+        cover(state, way);  // what moved along with a vertex that is held back now comes nearer to it
     }
     if (!free) {
         const float part = scale_all(way);
@@ -233,15 +237,16 @@ std::vector<float> ClothContact::free_parts(const Way& way) const
     return part;
 }
 
-// The part of the whole move that nothing stands in the way of. Who is free for as much as others leave is not looked at
-// any further.
+// The part of the whole move that nothing stands in the way of. Who is free for as much as others leave is not looked
+// at any further.
 float ClothContact::scale_all(const Way& way) const
 {
     std::atomic<float> least = 1;
     for_each_item(int(tree_.candidates().size()), [&, this](int k) {
         float so_far = least.load(std::memory_order_relaxed);
         const float part = free_part(k, way, so_far);
-        while (part < so_far && !least.compare_exchange_weak(so_far, part)) {}
+        while (part < so_far && !least.compare_exchange_weak(so_far, part)) {
+        }
     });
     return least;
 }
@@ -415,8 +420,8 @@ void ClothContact::ride(const State& state, const Way& way, std::vector<real>& m
     });
 }
 
-// Cloth that only goes along need not come as far as the pins that lead it: who would hit something stays behind, so that
-// a jam in one place does not stop pins in another. What these themselves would hit is left to the caller.
+// Cloth that only goes along need not come as far as the pins that lead it: who would hit something stays behind, so
+// that a jam in one place does not stop pins in another. What these themselves would hit is left to the caller.
 void ClothContact::let_followers_wait(const State& state, const Way& way, std::vector<real>& move)
 {
     const auto leads = [&](int corner) { return corner >= 0 && state.inv_mass[corner] == 0; };
@@ -455,7 +460,7 @@ bool ClothContact::advance_held(State& state, const Follow& follow)
     keep_ = held_keep;
     nearest_ = held_scarce * gap_;
     float part = scale_all(way);
-    if (part < jammed && !way.body_move) {   // what a body presses on goes ahead of it, or is run through
+    if (part < jammed && !way.body_move) {  // what a body presses on goes ahead of it, or is run through
         let_followers_wait(state, way, move);
         part = std::min(scale_all(way), most_ahead);
     }
@@ -480,7 +485,8 @@ void ClothContact::show_bodies(State& state) const
 {
     if (state.body_point.empty()) return;
     for (std::size_t k = 0; k < body_now_.size(); ++k)
-        for (int c = 0; c < 3; ++c) state.body_point[c * std::size_t(state.size.body_point_stride) + k] = body_now_[k][c];
+        for (int c = 0; c < 3; ++c)
+            state.body_point[c * std::size_t(state.size.body_point_stride) + k] = body_now_[k][c];
 }
 
 std::size_t ClothContact::bytes() const

@@ -5,26 +5,26 @@
 #include <utility>
 #include <vector>
 
-#include "host/scene/body_shapes.hpp"
 #include "host/collision/ccd.hpp"
 #include "host/collision/cloth_tree.hpp"
 #include "host/mesh/self_intersections.hpp"
-#include "host/solver/terms/params.hpp"
+#include "host/scene/body_shapes.hpp"
 #include "host/solver/state/state.hpp"
 #include "host/solver/state/topology.hpp"
+#include "host/solver/terms/params.hpp"
 
 namespace selvage {
 
 /// What a run reports of contact between cloth and cloth.
 struct ClothContactCounts {
-    long long looks = 0;            ///< Times that pairs were looked for.
-    long long shortened = 0;        ///< Moves that were cut since something would have been passed through.
-    int inside = 0;                 ///< Vertices that started inside a body and are still there.
-    int tangles = 0;                ///< Pairs of triangles that intersect and may pass through each other.
+    long long looks = 0;      ///< Times that pairs were looked for.
+    long long shortened = 0;  ///< Moves that were cut since something would have been passed through.
+    int inside = 0;           ///< Vertices that started inside a body and are still there.
+    int tangles = 0;          ///< Pairs of triangles that intersect and may pass through each other.
 };
 
-/// Contact of the cloth with itself, and of its faces and edges with bodies: keeps the pairs in the state's fields up to
-/// date and every move free of crossings. Cloth that starts free of intersections stays so, since whatever moves the
+/// Contact of the cloth with itself, and of its faces and edges with bodies: keeps the pairs in the state's fields up
+/// to date and every move free of crossings. Cloth that starts free of intersections stays so, since whatever moves the
 /// cloth, the bodies or held vertices asks here first. Vertices on bodies are FabricContact's; here their ways are
 /// checked as well.
 ///
@@ -32,7 +32,7 @@ struct ClothContactCounts {
 /// bodies until they are apart; then they are as the others.
 class ClothContact {
 public:
-    static constexpr int memory_size = 16;   ///< Numbers per pair in memory().
+    static constexpr int memory_size = 16;  ///< Numbers per pair in memory().
 
     /// @param bodies    those that can be touched; left out are those that cloth is clear of whose vertices are
     /// @param gap       distance at which contact sets in [m]
@@ -46,7 +46,8 @@ public:
     /// Where particles stand still and only the others are looked at. @param is_awake  per particle; null: all move
     void let_sleep(const std::vector<char>* is_awake) { tree_.let_sleep(is_awake); }
 
-    /// Forgets what earlier steps have found, so that a step depends on the state alone and a resumed run goes the same way.
+    /// Forgets what earlier steps have found, so that a step depends on the state alone and a resumed run goes the same
+    /// way.
     void start_step() { tree_.forget(); }
 
     /// Lists the pairs that are in contact at state.pos.
@@ -76,7 +77,8 @@ public:
     /// Puts bodies where they are at a time, at the start or when a step is given up.
     void place_bodies(State& state, double time);
 
-    /// Ends a step for friction: bristles slip, limits follow the normal forces. Tangles that have come apart are noticed.
+    /// Ends a step for friction: bristles slip, limits follow the normal forces. Tangles that have come apart are
+    /// noticed.
     void settle(State& state, const Params& params);
 
     /// The bristles of friction, for retries and checkpoints.
@@ -86,26 +88,29 @@ public:
     /// Per particle: 1 if it belongs to a triangle that a body pierces.
     const std::vector<char>& pierced() const { return pierced_; }
 
-    /// What is known of each particle's faults, for checkpoints: 1 if it started inside a body and is still there, plus 2
-    /// if it belongs to a triangle that may pass through others, plus 4 if a body pierces that.
+    /// What is known of each particle's faults, for checkpoints: 1 if it started inside a body and is still there, plus
+    /// 2 if it belongs to a triangle that may pass through others, plus 4 if a body pierces that.
     std::vector<real> faults() const;
-    void set_faults(const std::vector<real>& faults);   ///< As `faults` gave them.
+    void set_faults(const std::vector<real>& faults);  ///< As `faults` gave them.
 
     double gap() const { return gap_; }
-    bool is_near_itself() const { return !tree_.candidates().empty(); }   ///< Or a body, on the last way that was cleared.
+    bool is_near_itself() const
+    {
+        return !tree_.candidates().empty();
+    }  ///< Or a body, on the last way that was cleared.
     const ClothContactCounts& counts() const { return counts_; }
     const TreeCounts& tree_counts() const { return tree_.counts(); }
     std::size_t bytes() const;
 
 private:
-    struct Look {                    // at one candidate
-        float distance = 0;          // a lower bound; exact where the candidate may matter [m]
-        float approach = 0;          // an upper bound, likewise [m]
-        bool near = false;           // it may matter on this way
+    struct Look {            // at one candidate
+        float distance = 0;  // a lower bound; exact where the candidate may matter [m]
+        float approach = 0;  // an upper bound, likewise [m]
+        bool near = false;   // it may matter on this way
     };
-    struct Way {                     // what is about to move, and where from
+    struct Way {  // what is about to move, and where from
         const std::vector<real>& pos;
-        const std::vector<real>* move = nullptr;         // null: nothing
+        const std::vector<real>* move = nullptr;  // null: nothing
         const std::vector<Vec3>* body_move = nullptr;
         int stride = 0;
     };
@@ -140,24 +145,24 @@ private:
     void ride(const State& state, const Way& way, std::vector<real>& move) const;
 
     double gap_, body_gap_, body_reach_ = 0;
-    std::vector<double> friction_, area_;          // per particle
-    std::vector<Face> faces_;                      // of particles
-    std::vector<Body> bodies_;                     // those in the tree
-    std::vector<Vec3> body_now_, body_goal_;       // corners of all of them [m]
-    std::vector<std::pair<int, Vec3>> pins_;       // where held particles are to be
-    int body_version_ = 0;                         // changes with body_now_
-    std::vector<std::unique_ptr<IntersectionTarget>> targets_;   // the bodies, where tangles are looked for
-    int targets_version_ = -1;                     // body_version_ that they are of
+    std::vector<double> friction_, area_;                       // per particle
+    std::vector<Face> faces_;                                   // of particles
+    std::vector<Body> bodies_;                                  // those in the tree
+    std::vector<Vec3> body_now_, body_goal_;                    // corners of all of them [m]
+    std::vector<std::pair<int, Vec3>> pins_;                    // where held particles are to be
+    int body_version_ = 0;                                      // changes with body_now_
+    std::vector<std::unique_ptr<IntersectionTarget>> targets_;  // the bodies, where tangles are looked for
+    int targets_version_ = -1;                                  // body_version_ that they are of
     Carry carry_;
-    double time_ = 0, goal_time_ = 0;              // where bodies are and are to be [s]
-    double keep_, nearest_;                        // part of a distance that a move leaves; where it gets scarce [m]
-    bool pending_ = false;                         // bodies or pins are not where they are to be
+    double time_ = 0, goal_time_ = 0;  // where bodies are and are to be [s]
+    double keep_, nearest_;            // part of a distance that a move leaves; where it gets scarce [m]
+    bool pending_ = false;             // bodies or pins are not where they are to be
     ClothTree tree_;
-    std::vector<Look> looks_;                      // per candidate
-    std::vector<Vec3> seen_;                       // per corner: where it was at the last look [m]
-    std::vector<float> gone_, way_;                // per corner: how far it has gone since, and is to go [m]
-    std::vector<char> tangled_, inside_, pierced_; // per particle
-    std::vector<int> listed_;                      // candidates that are pairs now, in the pairs' order
+    std::vector<Look> looks_;                       // per candidate
+    std::vector<Vec3> seen_;                        // per corner: where it was at the last look [m]
+    std::vector<float> gone_, way_;                 // per corner: how far it has gone since, and is to go [m]
+    std::vector<char> tangled_, inside_, pierced_;  // per particle
+    std::vector<int> listed_;                       // candidates that are pairs now, in the pairs' order
     std::vector<real> memory_;
     ClothContactCounts counts_;
 };

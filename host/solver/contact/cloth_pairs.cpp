@@ -4,14 +4,14 @@
 
 #include <tbb/parallel_sort.h>
 
-#include "host/solver/contact/cloth_contact.hpp"
 #include "host/parallel/launch.hpp"
+#include "host/solver/contact/cloth_contact.hpp"
 #include "kernels/stages/settle_pairs.h"
 
 namespace selvage {
 namespace {
 
-constexpr double parallel_sine = 0.1;    // edges that cross at a smaller sine count less
+constexpr double parallel_sine = 0.1;  // edges that cross at a smaller sine count less
 
 bool before(const PairCandidate& p, const PairCandidate& q)
 {
@@ -57,7 +57,8 @@ double ClothContact::area_of(const PairCandidate& candidate, const Way& way) con
 {
     double sum = 0;
     int count = 0;
-    for (int i = candidate.edges ? 0 : candidate.corner[0] < 0; i < (candidate.edges || candidate.corner[0] < 0 ? 4 : 1); ++i)
+    for (int i = candidate.edges ? 0 : candidate.corner[0] < 0;
+         i < (candidate.edges || candidate.corner[0] < 0 ? 4 : 1); ++i)
         if (candidate.corner[i] >= 0) {
             sum += area_[candidate.corner[i]];
             ++count;
@@ -82,7 +83,8 @@ void ClothContact::list_pairs(State& state)
         const double gap = gap_of(candidates[k]);
         if (gap > 0 && looks_[k].distance - looks_[k].approach < gap && !may_pass(candidates[k])) listed_.push_back(k);
     }
-    tbb::parallel_sort(listed_.begin(), listed_.end(), [&](int a, int b) { return before(candidates[a], candidates[b]); });
+    tbb::parallel_sort(listed_.begin(), listed_.end(),
+                       [&](int a, int b) { return before(candidates[a], candidates[b]); });
     const int count = int(listed_.size());
     state.set_pairs(count);
     const int ps = state.size.pair_stride;

@@ -18,7 +18,8 @@ bool is_convex(const Cloth& cloth, const ClothPanel& panel)
         const Vec2 b = cloth.panel_coordinates[cloth.faces[f][2]] - cloth.panel_coordinates[cloth.faces[f][0]];
         area += 0.5 * (a.x() * b.y() - a.y() * b.x());
     }
-    std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); });
+    std::sort(points.begin(), points.end(),
+              [](const Vec2& a, const Vec2& b) { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); });
     std::vector<Vec2> hull;
     for (int side = 0; side < 2; ++side) {
         const std::size_t base = hull.size();
@@ -57,7 +58,8 @@ TreeSurface tree_surface(const Topology& topology, const Cloth& cloth)
     TreeSurface surface;
     surface.faces = topology.faces;
     for (const Face& f : cloth.faces)
-        surface.rest.push_back({cloth.panel_coordinates[f[0]], cloth.panel_coordinates[f[1]], cloth.panel_coordinates[f[2]]});
+        surface.rest.push_back(
+            {cloth.panel_coordinates[f[0]], cloth.panel_coordinates[f[1]], cloth.panel_coordinates[f[2]]});
     for (const ClothPanel& panel : cloth.panels)
         surface.patches.push_back({panel.first_face, panel.face_count, true, is_convex(cloth, panel)});
     surface.group_of.resize(std::size_t(topology.particle_count));

@@ -8,8 +8,8 @@
 namespace selvage {
 namespace {
 
-constexpr double stretched = 1.1;    // edges may be so much longer than at rest
-constexpr double most_sag = 0.025;   // [m], within the margin in which a vertex knows its surface
+constexpr double stretched = 1.1;   // edges may be so much longer than at rest
+constexpr double most_sag = 0.025;  // [m], within the margin in which a vertex knows its surface
 
 }  // namespace
 
@@ -32,7 +32,8 @@ double chord_sag(const Body& body, const Cloth& cloth)
     double longest = 0;
     for (const Face& f : cloth.faces)
         for (int k = 0; k < 3; ++k)
-            longest = std::max(longest, (cloth.panel_coordinates[f[k]] - cloth.panel_coordinates[f[(k + 1) % 3]]).norm());
+            longest =
+                std::max(longest, (cloth.panel_coordinates[f[k]] - cloth.panel_coordinates[f[(k + 1) % 3]]).norm());
     return std::pow(stretched * longest, 2) / (6 * body.radius);
 }
 
@@ -97,7 +98,7 @@ void FabricContact::place(State& state, double time)
 void FabricContact::move_to(State& state, double time)
 {
     const bool moving = query_.time() < query_.motion_end();
-    if (moving) update(state);   // a step may end beyond where it last looked
+    if (moving) update(state);  // a step may end beyond where it last looked
     query_.move_to(time);
     if (!moving || state.friction_limit.empty()) return;
     const int vs = state.size.vertex_stride;

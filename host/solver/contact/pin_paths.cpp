@@ -9,7 +9,7 @@
 namespace selvage {
 namespace {
 
-constexpr int steps_per_look = 4;     // parts of a time whose ways are added up, so that no turn is missed
+constexpr int steps_per_look = 4;  // parts of a time whose ways are added up, so that no turn is missed
 
 Vec3 moved(const PinMotion& motion, const Vec3& x, double time)
 {
@@ -22,7 +22,7 @@ Vec3 moved(const PinMotion& motion, const Vec3& x, double time)
 
 PinPaths::PinPaths(const Cloth& cloth, const Topology& topology) : motions_(cloth.pin_motions)
 {
-    std::map<int, Pin> pin_of;   // by particle
+    std::map<int, Pin> pin_of;  // by particle
     for (int m = 0; m < int(motions_.size()); ++m) {
         end_ = std::max(end_, motions_[m].end);
         for (const int v : motions_[m].vertices) {
@@ -48,7 +48,8 @@ double PinPaths::longest_step(double time, double room, double way) const
             double sum = 0;
             for (int k = 0; k < steps_per_look; ++k)
                 sum += (position(pin, time + (k + 1) * dt / steps_per_look) -
-                        position(pin, time + k * dt / steps_per_look)).norm();
+                        position(pin, time + k * dt / steps_per_look))
+                           .norm();
             return sum > way;
         });
     };

@@ -12,7 +12,7 @@ class PinPaths {
 public:
     PinPaths(const Cloth& cloth, const Topology& topology);
 
-    double end() const { return end_; }   ///< Time after which all of them stand still [s]; 0 if none moves.
+    double end() const { return end_; }  ///< Time after which all of them stand still [s]; 0 if none moves.
     /// The longest time within `room`, halved as often as needed, in which none moves further than `way` [m].
     double longest_step(double time, double room, double way) const;
     /// Puts them where they are at a time. They have no velocity in the state, which keeps what integrators derive
@@ -24,8 +24,8 @@ public:
 private:
     struct Pin {
         int particle;
-        Vec3 start;                 ///< [m]
-        std::vector<int> motions;   ///< Into motions_, in the order in which they act.
+        Vec3 start;                ///< [m]
+        std::vector<int> motions;  ///< Into motions_, in the order in which they act.
     };
 
     Vec3 position(const Pin& pin, double time) const;

@@ -1,7 +1,7 @@
-#include "host/solver/contact/body_contact.hpp"
-#include "host/parallel/launch.hpp"
-#include "kernels/stages/hold_friction.h"
 #include "kernels/stages/settle_friction.h"
+#include "host/parallel/launch.hpp"
+#include "host/solver/contact/body_contact.hpp"
+#include "kernels/stages/hold_friction.h"
 
 namespace selvage {
 
@@ -33,11 +33,11 @@ void settle_friction(State& state, const Params& params)
 void hold_by_friction(State& state, const Params& params)
 {
     if (state.friction_anchor.empty()) return;
-    launch<hold_friction_vertex>(state.size.vertex_count,
-                                 hold_friction_args{state.pos.data(), state.vel.data(), state.force.data(),
-                                                    state.contact_normal.data(), state.friction_limit.data(),
-                                                    state.friction_anchor.data(), params.friction.stick_distance,
-                                                    state.size.vertex_stride});
+    launch<hold_friction_vertex>(
+        state.size.vertex_count,
+        hold_friction_args{state.pos.data(), state.vel.data(), state.force.data(), state.contact_normal.data(),
+                           state.friction_limit.data(), state.friction_anchor.data(), params.friction.stick_distance,
+                           state.size.vertex_stride});
 }
 
 }  // namespace selvage

@@ -22,7 +22,10 @@ struct BlockMatrix {
     LinearVector block;
 
     int rows() const { return int(row_begin.size()) - 1; }
-    std::size_t bytes() const { return block.size() * sizeof(linear) + (row_begin.size() + column.size()) * sizeof(int); }
+    std::size_t bytes() const
+    {
+        return block.size() * sizeof(linear) + (row_begin.size() + column.size()) * sizeof(int);
+    }
 
     /// What y = A x must move [bytes].
     std::size_t product_bytes() const { return bytes() + 6 * std::size_t(rows()) * sizeof(linear); }
@@ -74,7 +77,7 @@ public:
         launch<block_diagonal_product>(rows, block_diagonal_args{inverse_.data(), r.data(), z.data()});
     }
     std::size_t bytes() const { return inverse_.size() * sizeof(linear); }
-    const linear* inverse() const { return inverse_.data(); }   ///< Nine entries per row.
+    const linear* inverse() const { return inverse_.data(); }  ///< Nine entries per row.
 
 private:
     LinearVector inverse_;

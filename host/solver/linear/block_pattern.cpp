@@ -32,9 +32,9 @@ BlockPattern make_pattern(const State& state)
     const int n = state.size.vertex_count, vs = state.size.vertex_stride;
     BlockPattern pattern;
     const Kind kinds[] = {
-#define KIND(kind, corner_count)                                                                              \
-    {state.kind##_slots, state.kind##_slot, state.kind##_vertex, corner_count, state.size.kind##_stride,      \
-     pattern.kind##_place},
+#define KIND(kind, corner_count)                                        \
+    {state.kind##_slots, state.kind##_slot,        state.kind##_vertex, \
+     corner_count,       state.size.kind##_stride, pattern.kind##_place},
         ELEMENT_KINDS(KIND)
 #undef KIND
     };
@@ -70,7 +70,7 @@ Transfer particle_transfer(const Transfer& transfer, const Topology& coarse, con
     result.offset.assign(1, 0);
     int next = 0;
     for (int v = 0; v < int(fine.particle_of.size()); ++v) {
-        if (fine.particle_of[v] != next) continue;   // a sewn vertex whose particle has its row already
+        if (fine.particle_of[v] != next) continue;  // a sewn vertex whose particle has its row already
         ++next;
         for (int k = transfer.offset[v]; k < transfer.offset[v + 1]; ++k) {
             const int column = coarse.particle_of[transfer.column[k]];

@@ -33,21 +33,27 @@ public:
 
     void assemble(const State& state, double inertia, bool solves) override
     {
-        const assemble_args args{pattern_.row_begin.data(), pattern_.column.data(), matrix_.block.data(),
-                                 state.mass.data(), state.inv_mass.data(),
-                                 state.vertex_stiffness.empty() ? nullptr : state.vertex_stiffness.data(),
-                                 state.size.vertex_stride, inertia};
+        const assemble_args args{
+            pattern_.row_begin.data(), pattern_.column.data(),
+            matrix_.block.data(),      state.mass.data(),
+            state.inv_mass.data(),     state.vertex_stiffness.empty() ? nullptr : state.vertex_stiffness.data(),
+            state.size.vertex_stride,  inertia};
         const assemble_kind kinds[] = {
-#define KIND(kind, corner_count)                                                                                  \
-    {state.kind##_slots.data(), state.kind##_slot.data(), pattern_.kind##_place.data(),                           \
-     state.kind##_stiffness.empty() ? nullptr : state.kind##_stiffness.data(), corner_count, state.size.kind##_stride},
+#define KIND(kind, corner_count)                                               \
+    {state.kind##_slots.data(),                                                \
+     state.kind##_slot.data(),                                                 \
+     pattern_.kind##_place.data(),                                             \
+     state.kind##_stiffness.empty() ? nullptr : state.kind##_stiffness.data(), \
+     corner_count,                                                             \
+     state.size.kind##_stride},
             ELEMENT_KINDS(KIND)
 #undef KIND
         };
         rows_ = items_of(state, ItemKind::vertex);
         // What sleeps is as good as pinned: its rows are not looked at, and vectors hold zero there.
         if (rows_.list)
-            for (LinearVector* v : {&x_, &r_, &z_, &p_, &q_, &turn_, &moment_}) std::fill(v->begin(), v->end(), linear(0));
+            for (LinearVector* v : {&x_, &r_, &z_, &p_, &q_, &turn_, &moment_})
+                std::fill(v->begin(), v->end(), linear(0));
         for_each_item(rows_, [&args, &kinds](int row) {
             assemble_clear(row, &args);
             for (const assemble_kind& kind : kinds)
@@ -104,10 +110,18 @@ public:
     void run(LinearOperation operation) override
     {
         switch (operation) {
-        case LinearOperation::product: multiply(p_, q_); break;
-        case LinearOperation::precondition: precondition(); break;
-        case LinearOperation::dot: dot(rows_, r_, z_); break;
-        case LinearOperation::update: advance(linear(1e-12)); break;
+            case LinearOperation::product:
+                multiply(p_, q_);
+                break;
+            case LinearOperation::precondition:
+                precondition();
+                break;
+            case LinearOperation::dot:
+                dot(rows_, r_, z_);
+                break;
+            case LinearOperation::update:
+                advance(linear(1e-12));
+                break;
         }
     }
 
@@ -123,10 +137,20 @@ private:
     void couple_hinges(const LinearVector& x, LinearVector& y)
     {
         const State& s = *state_;
-        const couple_args args{s.hinge_vertex.data(), s.hinge_slope.data(), s.hinge_rigidity.data(),
-                               s.coupling_slots.data(), s.coupling_hinge.data(), s.coupling_rigidity.data(),
-                               s.hinge_slots.data(), s.hinge_slot.data(), x.data(), turn_.data(), moment_.data(),
-                               y.data(), s.size.hinge_stride, s.size.vertex_stride};
+        const couple_args args{s.hinge_vertex.data(),
+                               s.hinge_slope.data(),
+                               s.hinge_rigidity.data(),
+                               s.coupling_slots.data(),
+                               s.coupling_hinge.data(),
+                               s.coupling_rigidity.data(),
+                               s.hinge_slots.data(),
+                               s.hinge_slot.data(),
+                               x.data(),
+                               turn_.data(),
+                               moment_.data(),
+                               y.data(),
+                               s.size.hinge_stride,
+                               s.size.vertex_stride};
         const Items hinges = items_of(s, ItemKind::hinge);
         launch<couple_turn>(hinges, args);
         launch<couple_moment>(hinges, args);
@@ -172,7 +196,7 @@ private:
             const double curvature = dot(rows_, p_, q_);
             if (!(curvature > 0) || !(rz > 0)) {
                 result.negative_curvature = true;
-                if (result.iterations == 0) x_ = p_;   // a descent direction is better than none
+                if (result.iterations == 0) x_ = p_;  // a descent direction is better than none
                 return;
             }
             advance(linear(rz / curvature));
@@ -195,11 +219,11 @@ private:
     BlockMatrix matrix_;
     BlockJacobi jacobi_;
     std::optional<Multigrid> multigrid_;
-    const State* state_ = nullptr;   // of the last assembly
-    Items rows_;                     // those awake then
+    const State* state_ = nullptr;  // of the last assembly
+    Items rows_;                    // those awake then
     LinearVector x_, r_, z_, p_, q_;
-    LinearVector turn_, moment_;     // per hinge; empty without a plate
-    LinearVector relative_;          // per pair in contact
+    LinearVector turn_, moment_;  // per hinge; empty without a plate
+    LinearVector relative_;       // per pair in contact
 };
 
 }  // namespace
@@ -207,8 +231,8 @@ private:
 #define JOIN_EXPANDED(a, b) a##b
 #define JOIN(a, b) JOIN_EXPANDED(a, b)
 std::unique_ptr<LinearSolver> JOIN(make_linear_solver_, SELVAGE_LINEAR)(const State& state,
-                                                                       const LinearOptions& options,
-                                                                       const ParticleTransfers& transfers)
+                                                                        const LinearOptions& options,
+                                                                        const ParticleTransfers& transfers)
 {
     return std::make_unique<ConjugateGradients>(state, options, transfers);
 }

@@ -13,8 +13,8 @@ namespace selvage {
 
 /// Where the blocks of the stiffness matrix stand, and where each element adds to them.
 struct BlockPattern {
-    std::vector<int> row_begin;   ///< Particle count + 1.
-    std::vector<int> column;      ///< Sorted within a row.
+    std::vector<int> row_begin;  ///< Particle count + 1.
+    std::vector<int> column;     ///< Sorted within a row.
     /// Per entry of the kind's gather list and corner: the block within the row.
     std::vector<std::uint16_t> face_place, hinge_place, stitch_place, spring_place;
 
@@ -34,8 +34,8 @@ struct LinearOptions {
 
 struct LinearResult {
     int iterations = 0;
-    double relative_residual = 1;      ///< |b - A x| / |b|.
-    bool negative_curvature = false;   ///< A direction p with p.Ap <= 0 was met; x is what stood before it.
+    double relative_residual = 1;     ///< |b - A x| / |b|.
+    bool negative_curvature = false;  ///< A direction p with p.Ap <= 0 was met; x is what stood before it.
 };
 
 /// The parts of one iteration, to be measured one by one.
@@ -59,7 +59,7 @@ public:
     {
         return solve(b, tolerance, x, std::numeric_limits<int>::max());
     }
-    virtual std::size_t bytes() const = 0;   ///< Memory held.
+    virtual std::size_t bytes() const = 0;  ///< Memory held.
     /// Runs one operation on the vectors that the last solve left behind.
     virtual void run(LinearOperation operation) = 0;
 };

@@ -29,13 +29,13 @@ public:
 
 private:
     struct Level {
-        BlockMatrix matrix;                      // empty at the finest level: the solver's own is used
+        BlockMatrix matrix;  // empty at the finest level: the solver's own is used
         BlockJacobi jacobi;
-        double largest_eigenvalue = 0;           // of D^-1 A, estimated from below and grown a little
-        LinearVector x, next, b, d;              // next: what a pass makes of x, and residuals
-        std::string name;                        // in profiles
-        Items rows;                              // those that take part
-        std::vector<char> is_awake;              // per row, and their list; empty where all take part
+        double largest_eigenvalue = 0;  // of D^-1 A, estimated from below and grown a little
+        LinearVector x, next, b, d;     // next: what a pass makes of x, and residuals
+        std::string name;               // in profiles
+        Items rows;                     // those that take part
+        std::vector<char> is_awake;     // per row, and their list; empty where all take part
         std::vector<int> awake;
         // Interpolation from the next coarser level, and its transpose.
         std::vector<int> up_begin, up_column, down_begin, down_row;
@@ -46,9 +46,11 @@ private:
     };
 
     void connect(Level& fine, const Transfer& transfer, const std::vector<char>* pinned, int coarse_rows);
-    void plan_product(const std::vector<int>& row_begin, const std::vector<int>& column, Level& fine, BlockMatrix& coarse);
+    void plan_product(const std::vector<int>& row_begin, const std::vector<int>& column, Level& fine,
+                      BlockMatrix& coarse);
     void select_rows(const Items& rows, const std::vector<char>& is_awake);
-    static void coarse_matrix(const BlockMatrix& fine_matrix, const Level& fine, const Level& coarse_level, BlockMatrix& coarse);
+    static void coarse_matrix(const BlockMatrix& fine_matrix, const Level& fine, const Level& coarse_level,
+                              BlockMatrix& coarse);
     void factorise_coarsest();
     void estimate_eigenvalue(const BlockMatrix& matrix, Level& level);
     static block_smooth_args pass(const BlockMatrix& matrix, Level& level, const linear* b);
@@ -78,7 +80,7 @@ Multigrid::Multigrid(const BlockPattern& finest, const std::vector<char>& pinned
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         const std::size_t size = 3 * std::size_t(l == 0 ? finest.rows() : levels_[l].matrix.rows());
         for (LinearVector* v : {&levels_[l].x, &levels_[l].next, &levels_[l].d}) v->resize(size);
-        if (l > 0) levels_[l].b.resize(size);   // the finest level reads the caller's
+        if (l > 0) levels_[l].b.resize(size);  // the finest level reads the caller's
     }
 }
 
@@ -118,7 +120,7 @@ void Multigrid::plan_product(const std::vector<int>& row_begin, const std::vecto
                 for (int p = fine.up_begin[column[k]]; p < fine.up_begin[column[k] + 1]; ++p) action(fine.up_column[p]);
     };
     for (int row = 0; row < coarse_rows; ++row) {
-        own.assign(1, row);   // a coarse vertex that carries nothing still needs its diagonal
+        own.assign(1, row);  // a coarse vertex that carries nothing still needs its diagonal
         mark[row] = 0;
         visit(row, [&](int c) {
             if (mark[c] < 0) {
@@ -258,14 +260,23 @@ void Multigrid::build(const BlockMatrix& finest, const Items& rows, const std::v
 
 block_smooth_args Multigrid::pass(const BlockMatrix& matrix, Level& level, const linear* b)
 {
-    return {matrix.row_begin.data(), matrix.column.data(), matrix.block.data(), level.jacobi.inverse(),
-            b, level.x.data(), level.d.data(), level.next.data(), 0, 0};
+    return {matrix.row_begin.data(),
+            matrix.column.data(),
+            matrix.block.data(),
+            level.jacobi.inverse(),
+            b,
+            level.x.data(),
+            level.d.data(),
+            level.next.data(),
+            0,
+            0};
 }
 
 // Two Chebyshev steps on the upper part of the spectrum of D^-1 A; the result goes to the level's x unless told.
 void Multigrid::smooth(const BlockMatrix& matrix, Level& level, const linear* b, bool from_zero, linear* result)
 {
-    const double high = level.largest_eigenvalue, low = high / 6, middle = 0.5 * (high + low), radius = 0.5 * (high - low);
+    const double high = level.largest_eigenvalue, low = high / 6, middle = 0.5 * (high + low),
+                 radius = 0.5 * (high - low);
     const double sigma = middle / radius, rho = 1 / (2 * sigma - 1 / sigma);
     const double share = double(level.rows.count) / matrix.rows();
     const TraceScope scope("smooth", std::int64_t(share * (from_zero ? 1 : 2) * double(matrix.product_bytes())),

@@ -9,7 +9,7 @@
 namespace selvage {
 namespace {
 
-constexpr double largest_factor = 2;   // of a panel too narrow for its few hinges to mean anything on average
+constexpr double largest_factor = 2;  // of a panel too narrow for its few hinges to mean anything on average
 
 // Edge length times the squared components of the edge's normal, weft and warp [m].
 Vec2 across_edge(const PlateMesh& mesh, int face, int k)
@@ -19,8 +19,8 @@ Vec2 across_edge(const PlateMesh& mesh, int face, int k)
 
 // What cylinders along weft (row 0) and warp (row 1) do on a panel.
 struct Work {
-    Mat2 per_moment = Mat2::Zero();   // area that moments per width given along weft and warp (columns) work on [m^2]
-    Vec2 area = Vec2::Zero();         // [m^2]
+    Mat2 per_moment = Mat2::Zero();  // area that moments per width given along weft and warp (columns) work on [m^2]
+    Vec2 area = Vec2::Zero();        // [m^2]
 };
 
 void add_face(const PlateMesh& mesh, int face, Work& work)
@@ -58,7 +58,7 @@ Vec2 balanced_moments(const Work& work, const Vec2& friction)
 void fill_hysteresis(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics)
 {
     const PlateMesh mesh(topology, cloth, fabrics);
-    std::vector<Vec2> moments(cloth.faces.size());   // per width, along weft and warp [N]
+    std::vector<Vec2> moments(cloth.faces.size());  // per width, along weft and warp [N]
     for (const ClothPanel& panel : cloth.panels) {
         const Fabric& fabric = fabrics.at(panel.fabric);
         Work work;

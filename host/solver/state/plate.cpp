@@ -11,9 +11,9 @@
 namespace selvage {
 namespace {
 
-constexpr int widest_ring = 3;         // how far hinges are looked for where few are near, as at corners
-constexpr double well_spread = 0.15;   // singular values of the hinges' rows beyond which all curvatures are seen
-constexpr double share_low = -1, share_high = 2;   // outside, the mesh is too poor for matched shares
+constexpr int widest_ring = 3;        // how far hinges are looked for where few are near, as at corners
+constexpr double well_spread = 0.15;  // singular values of the hinges' rows beyond which all curvatures are seen
+constexpr double share_low = -1, share_high = 2;  // outside, the mesh is too poor for matched shares
 
 // Entries of a row over hinges, to be multiplied with their turns.
 struct Weight {
@@ -81,8 +81,7 @@ Share matched_share(const PlateMesh& mesh, int hinge, double by_area)
     Vec3 inverse = Vec3::Zero();
     for (int i = 0; i < 3; ++i)
         if (solver.eigenvalues()[i] > 1e-6 * solver.eigenvalues()[2]) inverse[i] = 1 / solver.eigenvalues()[i];
-    const Vec3 multiplier =
-        solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose() * missing;
+    const Vec3 multiplier = solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose() * missing;
     Share share;
     for (int i = 0; i < n; ++i) {
         const double scale = pool.row[0].norm() / pool.row[i].norm();
@@ -99,7 +98,7 @@ Share first_share(const PlateMesh& mesh, int hinge)
     const int one = mesh.face(hinge, 0), two = mesh.face(hinge, 1);
     if (mesh.rigid(one)) return {};
     if (mesh.rigid(two)) return {{hinge, 1}};
-    if (!mesh.mixes(hinge)) {   // the same moment bends both sides
+    if (!mesh.mixes(hinge)) {  // the same moment bends both sides
         const double soft_one = mesh.area(one) / std::max(mesh.rigidity(one), 1e-30);
         const double soft_two = mesh.area(two) / std::max(mesh.rigidity(two), 1e-30);
         return {{hinge, soft_one / (soft_one + soft_two)}};

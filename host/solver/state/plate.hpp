@@ -8,10 +8,10 @@ namespace selvage {
 /// The matrix G of kernels/terms/plate.h over the hinges of a cloth: energy = 1/2 phi^T G phi, symmetric, in
 /// compressed rows that contain their diagonal.
 struct PlateMatrix {
-    std::vector<int> row_begin;   ///< Hinge count + 1.
-    std::vector<int> column;      ///< Hinge; sorted within a row.
-    std::vector<float> entry;     ///< [N m]
-    std::vector<double> own;      ///< Diagonal W that stands for G in the assembled matrix, per hinge [N m].
+    std::vector<int> row_begin;  ///< Hinge count + 1.
+    std::vector<int> column;     ///< Hinge; sorted within a row.
+    std::vector<float> entry;    ///< [N m]
+    std::vector<double> own;     ///< Diagonal W that stands for G in the assembled matrix, per hinge [N m].
 
     int entries() const { return int(column.size()); }
 };

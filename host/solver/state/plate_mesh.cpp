@@ -11,10 +11,7 @@ namespace {
 Vec2 left_of(const Vec2& v) { return Vec2(-v.y(), v.x()); }
 
 // The row over (xx, yy, xy) that gives p^T S q.
-Vec3 product(const Vec2& p, const Vec2& q)
-{
-    return Vec3(p.x() * q.x(), p.y() * q.y(), p.x() * q.y() + p.y() * q.x());
-}
+Vec3 product(const Vec2& p, const Vec2& q) { return Vec3(p.x() * q.x(), p.y() * q.y(), p.x() * q.y() + p.y() * q.x()); }
 
 Mat3 bending_stiffness(const Fabric& fabric)
 {
@@ -58,7 +55,7 @@ PlateMesh::PlateMesh(const Topology& topology, const Cloth& cloth, const FabricT
             }
         }
     for (int h = 0; h < hinge_count(); ++h) {
-        std::array<bool, 2> forwards;   // does the face run along the edge from the hinge's first end to its second?
+        std::array<bool, 2> forwards;  // does the face run along the edge from the hinge's first end to its second?
         for (int s = 0; s < 2; ++s) {
             const Face& corners = topology.faces[face(h, s)];
             const int k = int(std::find(corners.begin(), corners.end(), topology.hinges[h][2 + s]) - corners.begin());

@@ -9,8 +9,8 @@ namespace selvage {
 /// A face unfolded into the rest plane of another.
 struct PlacedFace {
     int face;
-    Mat2 map;        ///< From the face's own panel coordinates to the base face's: a rotation or a reflection.
-    double sign;     ///< 1 if its outside is the base face's, -1 if its panel was sewn on from the other side.
+    Mat2 map;     ///< From the face's own panel coordinates to the base face's: a rotation or a reflection.
+    double sign;  ///< 1 if its outside is the base face's, -1 if its panel was sewn on from the other side.
 };
 
 /// The rest geometry that plate bending is derived from: faces in their panels, and how hinges join them.
@@ -24,22 +24,22 @@ public:
     int hinge_count() const { return int(faces_of_.size()); }
     int face_count() const { return int(faces_.size()); }
     int face(int hinge, int side) const { return faces_of_[hinge][side]; }
-    int corner(int hinge, int side) const { return corners_of_[hinge][side]; }   ///< Edge of that face at the hinge.
+    int corner(int hinge, int side) const { return corners_of_[hinge][side]; }  ///< Edge of that face at the hinge.
     /// The hinge at an edge; -1 at a free edge and between held faces.
     int hinge(int face, int k) const { return faces_[face].hinge[k]; }
     /// 1 if both faces look the same way, -1 if one panel is sewn on turned over.
     double sign(int hinge) const { return signs_[hinge]; }
-    bool rigid(int face) const { return faces_[face].rigid; }                    ///< All corners are held.
+    bool rigid(int face) const { return faces_[face].rigid; }  ///< All corners are held.
     /// True if the hinge may be pooled with others: one fabric on both sides.
     bool mixes(int hinge) const { return faces_[face(hinge, 0)].fabric == faces_[face(hinge, 1)].fabric; }
     double area(int face) const { return faces_[face].area; }
-    double rigidity(int face) const;                                             ///< Mean of weft and warp [N m].
+    double rigidity(int face) const;  ///< Mean of weft and warp [N m].
 
     PlacedFace base(int hinge) const { return {face(hinge, 0), Mat2::Identity(), 1}; }
     /// The face beyond edge k of a placed one, unfolded about that edge.
     PlacedFace across(const PlacedFace& from, int k) const;
-    Vec3 side_row(const PlacedFace& at, int k) const;   ///< Of one side of an edge [m].
-    Vec3 turn_row(const PlacedFace& at, int k) const;   ///< Of the whole hinge, in the hinge's own sign [m].
+    Vec3 side_row(const PlacedFace& at, int k) const;  ///< Of one side of an edge [m].
+    Vec3 turn_row(const PlacedFace& at, int k) const;  ///< Of the whole hinge, in the hinge's own sign [m].
     /// Curvature tensor (xx, yy, xy) of a face, in its own panel's coordinates, per turn on its side of edge k [1/m].
     Vec3 curvature_of_turn(int face, int k) const;
     /// Rigidities (xx, yy, xy) of a face with no moment across its free edges [N m].
@@ -47,9 +47,9 @@ public:
 
 private:
     struct Edge {
-        Vec2 along, inward;        // unit; counter-clockwise, and towards the corner
-        double length, altitude;   // [m]
-        double foot;               // of the corner along the edge [m]
+        Vec2 along, inward;       // unit; counter-clockwise, and towards the corner
+        double length, altitude;  // [m]
+        double foot;              // of the corner along the edge [m]
     };
     struct PlateFace {
         std::array<Edge, 3> edge;

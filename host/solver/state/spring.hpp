@@ -6,11 +6,11 @@ namespace selvage {
 /// One spring between two particles; see kernels/terms/spring.h.
 struct Spring {
     std::array<int, 2> vertex{};
-    double length = 0;             ///< At rest [m].
-    double constant = 0;           ///< [N/m]
-    double limit_length = 0;       ///< Beyond it the spring is over-long [m].
-    double limit_constant = 0;     ///< Constant there [N/m].
-    bool bends = false;            ///< Joins the opposite corners of a hinge.
+    double length = 0;          ///< At rest [m].
+    double constant = 0;        ///< [N/m]
+    double limit_length = 0;    ///< Beyond it the spring is over-long [m].
+    double limit_constant = 0;  ///< Constant there [N/m].
+    bool bends = false;         ///< Joins the opposite corners of a hinge.
 };
 
 }  // namespace selvage

@@ -9,8 +9,8 @@
 namespace selvage {
 namespace {
 
-constexpr double nearly = 0.1;          // by which a rectangle's diagonals may differ, as a part of their length
-constexpr double mixed_weight = 0.01;   // of the moduli that mix tension and shear
+constexpr double nearly = 0.1;         // by which a rectangle's diagonals may differ, as a part of their length
+constexpr double mixed_weight = 0.01;  // of the moduli that mix tension and shear
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -19,7 +19,7 @@ struct RestFace {
     std::array<Vec2, 3> corner;
     double area = 0;
     const Fabric* fabric = nullptr;
-    int partner_corner = -1;     // corner from which the second diagonal starts; -1: none
+    int partner_corner = -1;  // corner from which the second diagonal starts; -1: none
     int partner_particle = -1;
     Vec2 second_diagonal = Vec2::Zero();
 };
@@ -30,7 +30,8 @@ std::vector<RestFace> rest_faces(const Cloth& cloth, const FabricTable& fabrics)
     for (const ClothPanel& panel : cloth.panels)
         for (int f = panel.first_face; f < panel.first_face + panel.face_count; ++f) {
             for (int k = 0; k < 3; ++k) faces[f].corner[k] = cloth.panel_coordinates[cloth.faces[f][k]];
-            faces[f].area = 0.5 * cross(faces[f].corner[1] - faces[f].corner[0], faces[f].corner[2] - faces[f].corner[0]);
+            faces[f].area =
+                0.5 * cross(faces[f].corner[1] - faces[f].corner[0], faces[f].corner[2] - faces[f].corner[0]);
             faces[f].fabric = &fabrics.at(panel.fabric);
         }
     return faces;
@@ -51,7 +52,7 @@ void pair_rectangles(const Topology& topology, const Cloth& cloth, std::vector<R
         const int kg = corner_of(topology.faces[g], topology.hinges[h][3]);
         if (cloth.faces[f][(kf + 1) % 3] != cloth.faces[g][(kg + 2) % 3] ||
             cloth.faces[f][(kf + 2) % 3] != cloth.faces[g][(kg + 1) % 3])
-            continue;   // a seam
+            continue;  // a seam
         const Vec2 a = faces[f].corner[(kf + 1) % 3], b = faces[f].corner[(kf + 2) % 3];
         const Vec2 c = faces[f].corner[kf], d = faces[g].corner[kg];
         const double diagonal = (b - a).norm();
@@ -206,7 +207,7 @@ Eigen::VectorXd fit_non_negative(const Eigen::MatrixXd& moduli, const Eigen::Vec
         least = misfit;
         best.setZero();
         best(active) = c;
-        if (int(active.size()) == count) break;   // nothing was held back
+        if (int(active.size()) == count) break;  // nothing was held back
     }
     return best;
 }

@@ -1,15 +1,15 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "host/solver/terms/params.hpp"
 #include "host/solver/state/topology.hpp"
+#include "host/solver/terms/params.hpp"
 
 namespace selvage {
 
 /// Which springs a phase has.
 struct SpringChoice {
-    bool membrane = false;   ///< Structural and shear springs: triangle edges, and second diagonals of near-rectangles.
-    bool bending = false;    ///< Bend springs, across every hinge.
+    bool membrane = false;  ///< Structural and shear springs: triangle edges, and second diagonals of near-rectangles.
+    bool bending = false;   ///< Bend springs, across every hinge.
 };
 
 /// The curvature at which a bend spring stores the energy of a hinge [1/m]: a fold of 2 cm radius. A straight spring

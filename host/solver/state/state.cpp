@@ -39,13 +39,13 @@ void State::set_pairs(int count)
     if (!wanted[std::size_t(Field::pair_vertex)]) return;
     size.pair_count = count;
     size.pair_slot_count = 4 * count;
-    if (padded_stride(count) > size.pair_stride) {   // with room to spare: contacts come in ones and twos
+    if (padded_stride(count) > size.pair_stride) {  // with room to spare: contacts come in ones and twos
         size.pair_stride = padded_stride(count + count / 4);
         size.pair_slot_stride = padded_stride(4 * size.pair_stride);
     }
     const auto comes_and_goes = [](std::string_view per) { return per == "pair" || per == "pair_slot"; };
-#define FIELD(type, name, per, components, unit, meaning)               \
-    if (wanted[std::size_t(Field::name)] && comes_and_goes(#per))        \
+#define FIELD(type, name, per, components, unit, meaning)         \
+    if (wanted[std::size_t(Field::name)] && comes_and_goes(#per)) \
         name.resize(std::size_t(components) * std::size_t(size.per##_stride));
 #include "kernels/fields.def"
 }
@@ -69,7 +69,8 @@ std::size_t field_bytes(const mesh_sizes& sizes, const FieldSet& wanted)
 {
     std::size_t total = 0;
 #define FIELD(type, name, per, components, unit, meaning) \
-    if (wanted[std::size_t(Field::name)]) total += std::size_t(components) * std::size_t(sizes.per##_stride) * sizeof(type);
+    if (wanted[std::size_t(Field::name)])                 \
+        total += std::size_t(components) * std::size_t(sizes.per##_stride) * sizeof(type);
 #include "kernels/fields.def"
     return total;
 }

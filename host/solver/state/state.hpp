@@ -21,7 +21,7 @@ using FieldSet = std::bitset<std::size_t(Field::count)>;
 struct FieldInfo {
     std::string_view name, type, per, unit, meaning;
     int components;
-    int bytes_per_item;   ///< components times the size of one.
+    int bytes_per_item;  ///< components times the size of one.
 };
 
 /// Returns the description of a field from its line in kernels/fields.def.
@@ -40,9 +40,9 @@ constexpr int padded_stride(int count) { return count == 0 ? 0 : (count + 127) /
 /// Which items take part in the steps at present: all, or those around vertices that are awake. See sleep.hpp.
 struct AwakeItems {
     bool all = true;
-    std::vector<int> vertex, face, hinge, stitch, spring;   ///< In ascending order; unused while all are awake.
-    std::vector<char> is_awake;                             ///< Per vertex, likewise.
-    double force_squared = 0;                               ///< Sum of |f|^2 over the others, when they fell asleep [N^2].
+    std::vector<int> vertex, face, hinge, stitch, spring;  ///< In ascending order; unused while all are awake.
+    std::vector<char> is_awake;                            ///< Per vertex, likewise.
+    double force_squared = 0;  ///< Sum of |f|^2 over the others, when they fell asleep [N^2].
 };
 
 /// Structure-of-arrays cloth state: component c of item i is at `name[c * stride + i]`.
@@ -53,7 +53,7 @@ struct State {
 #include "kernels/fields.def"
 
     AwakeItems awake;
-    FieldSet wanted;                                         ///< The fields that are in use.
+    FieldSet wanted;  ///< The fields that are in use.
 
     State() = default;
     State(const mesh_sizes& sizes, const FieldSet& wanted);  ///< Zero-fills the wanted fields.
@@ -61,7 +61,7 @@ struct State {
     void set_pairs(int count);
     /// Makes room for the corners of bodies that pairs refer to.
     void set_body_points(int count);
-    std::size_t bytes() const;                               ///< Memory held by all fields.
+    std::size_t bytes() const;  ///< Memory held by all fields.
 };
 
 /// Returns the memory that `wanted` would take for these sizes [bytes], without allocating it.

@@ -30,10 +30,7 @@ std::vector<int> sewn_groups(const Cloth& cloth)
 
 struct HalfEdge {
     int low, high, face, opposite, first;
-    bool operator<(const HalfEdge& o) const
-    {
-        return std::array{low, high, face} < std::array{o.low, o.high, o.face};
-    }
+    bool operator<(const HalfEdge& o) const { return std::array{low, high, face} < std::array{o.low, o.high, o.face}; }
 };
 
 // An edge with exactly two faces is a hinge; free edges and edges where three layers meet have none.
@@ -103,8 +100,8 @@ void fill_slots(const std::vector<std::array<int, Corners>>& elements, int verte
 }
 
 struct PanelFabrics {
-    std::vector<const Fabric*> fabric;   ///< Per panel.
-    std::vector<int> material;           ///< Row of the material table, per panel.
+    std::vector<const Fabric*> fabric;  ///< Per panel.
+    std::vector<int> material;          ///< Row of the material table, per panel.
 };
 
 PanelFabrics panel_fabrics(const Cloth& cloth, const FabricTable& fabrics)
@@ -192,8 +189,7 @@ Topology make_topology(const Cloth& cloth, bool joined)
     }
     topology.faces.reserve(cloth.faces.size());
     for (const Face& f : cloth.faces)
-        topology.faces.push_back(
-            {topology.particle_of[f[0]], topology.particle_of[f[1]], topology.particle_of[f[2]]});
+        topology.faces.push_back({topology.particle_of[f[0]], topology.particle_of[f[1]], topology.particle_of[f[2]]});
     find_hinges(topology);
     if (!joined)
         for (const auto& pair : cloth.seam_pairs) topology.stitches.push_back(pair);
@@ -260,8 +256,7 @@ void fill_state(State& state, const Topology& topology, const Cloth& cloth, cons
     fill_hinges(state, topology, cloth, table);
     fill_springs(state, topology);
     for (int s = 0; s < int(topology.stitches.size()) && !state.stitch_vertex.empty(); ++s)
-        for (int k = 0; k < 2; ++k)
-            state.stitch_vertex[k * state.size.stitch_stride + s] = topology.stitches[s][k];
+        for (int k = 0; k < 2; ++k) state.stitch_vertex[k * state.size.stitch_stride + s] = topology.stitches[s][k];
 
     const int vs = state.size.vertex_stride, n = state.size.vertex_count;
     fill_slots(topology.faces, n, vs, state.face_slots, state.face_slot);

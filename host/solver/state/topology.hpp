@@ -15,9 +15,9 @@ namespace selvage {
 /// Sewn vertices become one particle; the flat cloth keeps its own vertices for rest shapes and output.
 struct Topology {
     int particle_count = 0;
-    std::vector<int> particle_of;              ///< Cloth vertex to particle.
-    std::vector<Face> faces;                   ///< Corners as particles; same order as Cloth::faces.
-    std::vector<std::array<int, 4>> hinges;    ///< Edge ends, then the corner opposite in each face (particles).
+    std::vector<int> particle_of;            ///< Cloth vertex to particle.
+    std::vector<Face> faces;                 ///< Corners as particles; same order as Cloth::faces.
+    std::vector<std::array<int, 4>> hinges;  ///< Edge ends, then the corner opposite in each face (particles).
     std::vector<std::array<int, 2>> hinge_faces;
     std::vector<std::array<int, 2>> stitches;  ///< Pairs of particles that a seam force still pulls together.
     std::vector<Spring> springs;               ///< Of the spring model; see springs.hpp.
@@ -43,7 +43,8 @@ using FabricTable = std::map<std::string, Fabric>;
 void place_particles(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
                      const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
 
-/// Fills the rest data of an allocated state: masses, faces, hinges, stitches, materials and gather lists; then as above.
+/// Fills the rest data of an allocated state: masses, faces, hinges, stitches, materials and gather lists; then as
+/// above.
 void fill_state(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
                 const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
 

@@ -9,14 +9,14 @@
 namespace selvage {
 namespace {
 
-constexpr int relax_chunk = 5;      // static iterations between two looks at interrupts and limits
+constexpr int relax_chunk = 5;  // static iterations between two looks at interrupts and limits
 constexpr int relax_chunks = 12;
 constexpr double first_load = 0.05;   // part of the weight at the first of several load steps
-constexpr int steps_between = 8;    // motion after a static attempt that did not reach the tolerance
-constexpr double too_early = 0.05;  // residual above which an attempt must not meet negative curvature all the time
-constexpr int patience = 25;        // motion after which one is made again although the forces do not fall further
-constexpr double stride = 2;        // steps towards rest, of those of a motion: only where they lead counts
-constexpr double swing_stride = 1.5;   // the same while the cloth swings
+constexpr int steps_between = 8;      // motion after a static attempt that did not reach the tolerance
+constexpr double too_early = 0.05;    // residual above which an attempt must not meet negative curvature all the time
+constexpr int patience = 25;          // motion after which one is made again although the forces do not fall further
+constexpr double stride = 2;          // steps towards rest, of those of a motion: only where they lead counts
+constexpr double swing_stride = 1.5;  // the same while the cloth swings
 
 // What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
 struct SavedShape {
@@ -27,7 +27,11 @@ SavedShape shape_of(const Phase& phase)
 {
     const State& s = phase.state();
     const ClothContact* cloth = phase.cloth_contact();
-    return {s.pos, s.vel, s.friction_anchor, s.friction_limit, s.hinge_anchor,
+    return {s.pos,
+            s.vel,
+            s.friction_anchor,
+            s.friction_limit,
+            s.hinge_anchor,
             cloth ? cloth->memory() : std::vector<real>{}};
 }
 
@@ -58,12 +62,13 @@ PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& p
     double best = 1e300;
     for (int chunk = 0; chunk < relax_chunks; ++chunk) {
         const NewtonReport report = phase.newton().relax(newton);
-        if (report.broken_off || !after_step({progress.time, 0, report.iterations, report.linear_iterations, report.residual})) {
+        if (report.broken_off ||
+            !after_step({progress.time, 0, report.iterations, report.linear_iterations, report.residual})) {
             restore(phase, start);
             return PhaseEnd::stopped;
         }
         if (report.converged) return PhaseEnd::reached;
-        const bool buckles = report.blind == report.iterations && report.iterations > 0;   // inertia has to lead it on
+        const bool buckles = report.blind == report.iterations && report.iterations > 0;  // inertia has to lead it on
         const bool unstable = swung && chunk == 0 && report.negative == report.iterations && began > too_early;
         const bool ends = report.stuck || buckles || unstable;
         if (chunk + 1 == relax_chunks || ends) progress.residual = report.residual;
@@ -101,12 +106,12 @@ StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
             progress.residual, control.stable_step(), control.shortest()};
 }
 
-// Whether a step may be left unsolved: what an iteration leaves over, a damped scheme of first order makes up for later.
-// Friction remembers the way, though: who lets the weight grow in steps asks for a way that is followed.
+// Whether a step may be left unsolved: what an iteration leaves over, a damped scheme of first order makes up for
+// later. Friction remembers the way, though: who lets the weight grow in steps asks for a way that is followed.
 bool may_hurry(const Integrator& integrator, const EquilibriumOptions& options)
 {
-    return options.hurries && !integrator.info().is_explicit && integrator.info().order <= 2 && !options.step.adaptive &&
-           options.load_steps == 1;
+    return options.hurries && !integrator.info().is_explicit && integrator.info().order <= 2 &&
+           !options.step.adaptive && options.load_steps == 1;
 }
 
 void wake_all(Phase& phase, DrapeProgress& progress)
@@ -132,7 +137,7 @@ public:
           hurries_(may_hurry(integrator, options)), swings_first_(hurries_ && integrator.info().order > 1)
     {
         newton_.stop = &options.stop;
-        newton_.tolerance = 0.3 * options.tolerance;   // a looser one would let a step do nothing near the end
+        newton_.tolerance = 0.3 * options.tolerance;  // a looser one would let a step do nothing near the end
         choose_steps();
         if (progress.dt > 0) control_->set_dt(progress.dt);
     }
@@ -157,8 +162,8 @@ public:
     }
 
 private:
-    // Cloth that falls and swings is followed until its forces first nearly balance. Hurried steps are so stiff that they
-    // would creep where momentum carries the cloth on, and end in higher folds.
+    // Cloth that falls and swings is followed until its forces first nearly balance. Hurried steps are so stiff that
+    // they would creep where momentum carries the cloth on, and end in higher folds.
     bool swings() const { return swings_first_ && progress_.switch_residual >= DrapeProgress{}.switch_residual; }
 
     void choose_steps()
@@ -181,7 +186,7 @@ private:
         wake_all(phase_, progress_);
         if (end == PhaseEnd::reached) return end;
         integrator_.restart();
-        if (was_part && progress_.residual <= 10 * options_.tolerance) return {};   // the rest is near its place
+        if (was_part && progress_.residual <= 10 * options_.tolerance) return {};  // the rest is near its place
         progress_.switch_residual = std::max(0.5 * progress_.switch_residual, 2 * options_.tolerance);
         progress_.hold = steps_between;
         if (swung) {
@@ -193,7 +198,7 @@ private:
 
     bool step()
     {
-        const bool follows = progress_.time < phase_.motion_end();   // bodies or pins, whose way counts
+        const bool follows = progress_.time < phase_.motion_end();  // bodies or pins, whose way counts
         const bool hurries = hurries_ && !follows && !swings();
         newton_.max_iterations = std::min(options_.newton_iterations, hurries ? 1 : 3);
         progress_.time += control_->advance(follows ? options_.step.longest : longest_, newton_, false);
@@ -203,7 +208,7 @@ private:
         if (hurries_ && !follows && options_.sleeps) {
             const bool all_awake = progress_.asleep == 0;
             rest_in_places(phase_, progress_.asleep);
-            if (all_awake && progress_.asleep > 0) integrator_.displaced();   // what sleeps has stopped
+            if (all_awake && progress_.asleep > 0) integrator_.displaced();  // what sleeps has stopped
         }
         --progress_.hold;
         return after_step_(event_of(*control_, progress_));
@@ -214,10 +219,10 @@ private:
     const EquilibriumOptions& options_;
     DrapeProgress& progress_;
     const AfterStep& after_step_;
-    const bool hurries_;          // sooner or later
-    const bool swings_first_;     // with a scheme of second order, which implicit Euler then takes over from
+    const bool hurries_;       // sooner or later
+    const bool swings_first_;  // with a scheme of second order, which implicit Euler then takes over from
     NewtonOptions newton_;
-    std::unique_ptr<Integrator> hurried_;   // implicit Euler, once it has taken over
+    std::unique_ptr<Integrator> hurried_;  // implicit Euler, once it has taken over
     std::optional<StepControl> control_;
     double longest_ = 0;
 };
@@ -240,7 +245,8 @@ PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, D
         gravity.acceleration_y = part * whole.acceleration_y;
         gravity.acceleration_z = part * whole.acceleration_z;
         end = WayToRest(phase, integrator, options, progress, after_step).go();
-        if (end == PhaseEnd::reached && left > 0) progress = DrapeProgress{.time = progress.time, .load = progress.load};
+        if (end == PhaseEnd::reached && left > 0)
+            progress = DrapeProgress{.time = progress.time, .load = progress.load};
         if (end == PhaseEnd::reached) ++progress.load;
     }
     phase.params().gravity = whole;

@@ -13,11 +13,11 @@ class Phase;
 
 /// What is known of a scheme without running it.
 struct IntegratorInfo {
-    std::string_view name;       ///< As in solver.integrator.
+    std::string_view name;  ///< As in solver.integrator.
     std::string_view summary;
-    int order = 0;               ///< Of the error at a given time in the step; 0: not a motion in time.
+    int order = 0;  ///< Of the error at a given time in the step; 0: not a motion in time.
     bool is_explicit = false;
-    int error_power = 0;         ///< The estimated error of one step goes with this power of it; 0: no estimate.
+    int error_power = 0;  ///< The estimated error of one step goes with this power of it; 0: no estimate.
 
     bool has_error_estimate() const { return error_power > 0; }
 };

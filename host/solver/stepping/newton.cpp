@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/solver/contact/anchors.hpp"
 #include "host/parallel/launch.hpp"
+#include "host/solver/contact/anchors.hpp"
 #include "kernels/stages/limit_step.h"
 
 namespace selvage {
@@ -13,9 +13,10 @@ namespace {
 constexpr double nearly_done = 10;         // times what would be done: a direction that gains no more may fail
 constexpr double noise_of_promise = 1e-9;  // of the objective: what a direction may promise wrongly
 constexpr double linear_tolerance_of_following = 0.1;
-constexpr int iterations_of_following = 60;   // it only leads the cloth on: in a jam, which solves badly, part of it must do
-constexpr int turns_of_cloth = 3;   // iterations for each move of bodies or pins: pushed on and on it cannot make way
-constexpr int most_held_up = 60 * turns_of_cloth;   // iterations while they wait for it
+constexpr int iterations_of_following =
+    60;                            // it only leads the cloth on: in a jam, which solves badly, part of it must do
+constexpr int turns_of_cloth = 3;  // iterations for each move of bodies or pins: pushed on and on it cannot make way
+constexpr int most_held_up = 60 * turns_of_cloth;  // iterations while they wait for it
 
 // Sum over vertices of the product of two fields with three components.
 double dot3(const State& state, const std::vector<real>& a, const std::vector<real>& b)
@@ -33,9 +34,10 @@ Newton::Newton(State& state, const Params& params, LinearSolver& linear, Contact
     : state_(state), params_(params), linear_(linear), contact_(contact), cloth_(cloth), profile_(profile),
       terms_(state, params, profile)
 {
-    for (std::vector<real>* v : {&start_, &origin_, &target_, &base_, &downhill_, &direction_}) v->assign(state.pos.size(), 0);
-    const double gravity = std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y,
-                                      params.gravity.acceleration_z);
+    for (std::vector<real>* v : {&start_, &origin_, &target_, &base_, &downhill_, &direction_})
+        v->assign(state.pos.size(), 0);
+    const double gravity =
+        std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y, params.gravity.acceleration_z);
     // Without gravity forces are measured against the weight that the cloth would have on earth.
     const double scale = gravity > 0 ? gravity : 9.81;
     force_scale_ = std::sqrt(sum_items(state.size.vertex_count, [&state, scale](int v) {
@@ -50,13 +52,13 @@ double Newton::objective()
     total += span_ * terms_.dissipation();
     const int vs = state_.size.vertex_stride;
     return total + 0.5 * inertia_ * sum_items(state_.size.vertex_count, [this, vs](int v) {
-        double squared = 0;
-        for (int c = 0; c < 3; ++c) {
-            const double d = state_.pos[c * vs + v] - target_[c * vs + v];
-            squared += d * d;
-        }
-        return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
-    });
+                       double squared = 0;
+                       for (int c = 0; c < 3; ++c) {
+                           const double d = state_.pos[c * vs + v] - target_[c * vs + v];
+                           squared += d * d;
+                       }
+                       return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
+                   });
 }
 
 // downhill = f - m (x - target) / h^2, zero at vertices that are pinned or asleep.
@@ -94,7 +96,7 @@ double Newton::search_direction(const NewtonOptions& options, NewtonReport& repo
     report.linear_iterations += result.iterations;
     report.negative += result.negative_curvature;
     report.blind += result.negative_curvature && result.iterations == 0;
-    if (dot3(state_, downhill_, direction_) < 0)   // only an indefinite matrix can give this
+    if (dot3(state_, downhill_, direction_) < 0)  // only an indefinite matrix can give this
         for_each_item(int(direction_.size()), [d = direction_.data()](int i) { d[i] = -d[i]; });
     promised_ = dot3(state_, downhill_, direction_);
     wanted_move_ = largest_move();
@@ -153,14 +155,13 @@ void Newton::place(double fraction)
 
 void Newton::keep_outside_bodies()
 {
-    launch<limit_step_vertex>(state_.size.vertex_count,
-                              limit_step_args{state_.pos.data(), state_.contact_normal.data(),
-                                              state_.contact_offset.data(), direction_.data(),
-                                              state_.size.vertex_stride});
+    launch<limit_step_vertex>(state_.size.vertex_count, limit_step_args{state_.pos.data(), state_.contact_normal.data(),
+                                                                        state_.contact_offset.data(), direction_.data(),
+                                                                        state_.size.vertex_stride});
 }
 
-// The direction as it was found, short enough as a whole that no vertex passes its plane: cutting vertices one by one has
-// turned it uphill.
+// The direction as it was found, short enough as a whole that no vertex passes its plane: cutting vertices one by one
+// has turned it uphill.
 void Newton::take_free_direction()
 {
     direction_ = free_direction_;
@@ -302,11 +303,12 @@ NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
         const int most = held_up ? std::max(options.max_iterations, most_held_up) : options.max_iterations;
         if (report.converged || report.iterations >= most) return report;
         const double slope = search_direction(options, report);
-        // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the force.
-        // A way that has been cut short says nothing: what it would have been does.
-        report.converged = !held_up && (wanted_move_ <= options.still * span_ ||
-                                        (promised_ <= options.decrement * terms_.kinetic_energy() &&
-                                         wanted_move_ <= options.most_left));
+        // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the
+        // force. A way that has been cut short says nothing: what it would have been does.
+        report.converged =
+            !held_up &&
+            (wanted_move_ <= options.still * span_ ||
+             (promised_ <= options.decrement * terms_.kinetic_energy() && wanted_move_ <= options.most_left));
         report.stuck = !std::isfinite(slope) || !search_line(slope, options);
         report.nearly = report.stuck && promised_ <= nearly_done * options.decrement * terms_.kinetic_energy() +
                                                          noise_of_promise * std::abs(objective());

@@ -2,38 +2,38 @@
 #include <functional>
 #include <vector>
 
-#include "host/solver/terms/active_terms.hpp"
 #include "host/solver/contact/body_contact.hpp"
 #include "host/solver/contact/cloth_contact.hpp"
 #include "host/solver/linear/linear_solver.hpp"
+#include "host/solver/terms/active_terms.hpp"
 #include "host/solver/terms/params.hpp"
 
 namespace selvage {
 
 struct NewtonOptions {
     int max_iterations = 12;
-    double tolerance = 1e-2;           ///< Norm of the objective's gradient over the force scale [1].
-    double still = 0;                  ///< A step is also done when an iteration moves no vertex faster than this [m/s].
-    double decrement = 0;              ///< A step is also done when an iteration promises less than this part of the
-                                       ///< kinetic energy [1].
-    double most_left = 1e300;          ///< But not while an iteration wants to move a vertex further than this [m].
-    double linear_tolerance = 0.05;    ///< Relative residual of the linear solves [1].
-    double max_move = 0.02;            ///< Largest way of a vertex near a body in one iteration [m].
-    double max_far_move = 0.1;         ///< Largest way of a vertex that is not near one, if there are bodies [m].
-    bool full_stiffness = false;       ///< Exact second derivatives instead of the projected ones.
-    const std::function<bool()>* stop = nullptr;   ///< Asked before each iteration: true breaks off.
+    double tolerance = 1e-2;         ///< Norm of the objective's gradient over the force scale [1].
+    double still = 0;                ///< A step is also done when an iteration moves no vertex faster than this [m/s].
+    double decrement = 0;            ///< A step is also done when an iteration promises less than this part of the
+                                     ///< kinetic energy [1].
+    double most_left = 1e300;        ///< But not while an iteration wants to move a vertex further than this [m].
+    double linear_tolerance = 0.05;  ///< Relative residual of the linear solves [1].
+    double max_move = 0.02;          ///< Largest way of a vertex near a body in one iteration [m].
+    double max_far_move = 0.1;       ///< Largest way of a vertex that is not near one, if there are bodies [m].
+    bool full_stiffness = false;     ///< Exact second derivatives instead of the projected ones.
+    const std::function<bool()>* stop = nullptr;  ///< Asked before each iteration: true breaks off.
 };
 
 struct NewtonReport {
-    bool converged = false;            ///< The tolerance was met.
-    bool stuck = false;                ///< No step along the direction lowered the objective.
-    bool broken_off = false;           ///< As asked: the state is that of an unfinished step.
-    bool nearly = false;               ///< Stuck where hardly anything was left to gain.
+    bool converged = false;   ///< The tolerance was met.
+    bool stuck = false;       ///< No step along the direction lowered the objective.
+    bool broken_off = false;  ///< As asked: the state is that of an unfinished step.
+    bool nearly = false;      ///< Stuck where hardly anything was left to gain.
     int iterations = 0;
     int linear_iterations = 0;
-    int negative = 0;                  ///< Iterations whose linear solve met negative curvature.
-    int blind = 0;                     ///< Iterations whose linear solve met negative curvature before its first step.
-    double residual = 0;               ///< Gradient norm over the force scale, at the end [1].
+    int negative = 0;     ///< Iterations whose linear solve met negative curvature.
+    int blind = 0;        ///< Iterations whose linear solve met negative curvature before its first step.
+    double residual = 0;  ///< Gradient norm over the force scale, at the end [1].
 };
 
 /// Minimises the objective of an implicit step, or the static energy, by Newton's method with a line search:
@@ -61,21 +61,25 @@ public:
     /// Iterations on the static energy; state.vel becomes zero, anchors settle after each.
     NewtonReport relax(const NewtonOptions& options);
 
-    /// Lists the pairs of cloth in contact: whoever evaluates forces elsewhere than on a way of Newton's must ask for it.
+    /// Lists the pairs of cloth in contact: whoever evaluates forces elsewhere than on a way of Newton's must ask for
+    /// it.
     void list_pairs();
 
-    /// Norm of the net conservative force on free vertices over that of gravity (or of `force_scale` if larger) [1]. Those
-    /// asleep count with what it was when they fell asleep.
+    /// Norm of the net conservative force on free vertices over that of gravity (or of `force_scale` if larger) [1].
+    /// Those asleep count with what it was when they fell asleep.
     double static_residual();
-    double force_scale() const { return force_scale_; }   ///< [N]
+    double force_scale() const { return force_scale_; }  ///< [N]
 
-    const std::vector<real>& downhill() const { return downhill_; }   ///< The last gradient, downhill, planes like pos [N].
+    const std::vector<real>& downhill() const
+    {
+        return downhill_;
+    }  ///< The last gradient, downhill, planes like pos [N].
 
     ActiveTerms& terms() { return terms_; }
-    double energy_of(std::string_view term) const { return terms_.energy_of(term); }   ///< [J]; 0 if inactive.
-    double bending_energy() const { return energy_of("bending") + energy_of("plate"); }   ///< Of whichever model [J].
-    double potential_energy() const { return terms_.potential_energy(); }              ///< [J]
-    double kinetic_energy() const { return terms_.kinetic_energy(); }                  ///< [J]
+    double energy_of(std::string_view term) const { return terms_.energy_of(term); }     ///< [J]; 0 if inactive.
+    double bending_energy() const { return energy_of("bending") + energy_of("plate"); }  ///< Of whichever model [J].
+    double potential_energy() const { return terms_.potential_energy(); }                ///< [J]
+    double kinetic_energy() const { return terms_.kinetic_energy(); }                    ///< [J]
 
 private:
     double objective();
@@ -105,10 +109,10 @@ private:
     Profile& profile_;
     ActiveTerms terms_;
     double force_scale_ = 0;
-    double promised_ = 0, wanted_move_ = 0;   ///< Of the last direction, before anything stood in its way [J], [m].
-    double inertia_ = 0;   ///< 1/h^2; 0 for the static energy [1/s^2].
-    double span_ = 0;      ///< h [s]
-    bool assembled_ = false;   ///< The linear solver has a matrix of this step.
+    double promised_ = 0, wanted_move_ = 0;  ///< Of the last direction, before anything stood in its way [J], [m].
+    double inertia_ = 0;                     ///< 1/h^2; 0 for the static energy [1/s^2].
+    double span_ = 0;                        ///< h [s]
+    bool assembled_ = false;                 ///< The linear solver has a matrix of this step.
     std::vector<real> start_, origin_, target_, base_, downhill_, direction_, free_direction_;
 };
 

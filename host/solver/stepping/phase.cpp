@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "host/solver/terms/cloth_state.hpp"
+#include "host/parallel/trace.hpp"
 #include "host/solver/state/hysteresis.hpp"
 #include "host/solver/state/springs.hpp"
-#include "host/parallel/trace.hpp"
+#include "host/solver/terms/cloth_state.hpp"
 
 namespace selvage {
 namespace {
 
-constexpr double lift_of_edge = 0.5;   // how much further off a body what it pierces is kept, of an edge length
+constexpr double lift_of_edge = 0.5;  // how much further off a body what it pierces is kept, of an edge length
 
 Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
 {
@@ -55,9 +55,9 @@ Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* qu
                                                    meets_itself(options.params));
     if (meets_itself(options.params)) {
         const TraceScope scope("cloth_tree");
-        cloth_contact_ = std::make_unique<ClothContact>(topology_, model.cloth, query ? model.bodies : std::vector<Body>{},
-                                                        cloth_gap(options.params),
-                                                        particle_friction(topology_, model.cloth, model.fabrics));
+        cloth_contact_ = std::make_unique<ClothContact>(
+            topology_, model.cloth, query ? model.bodies : std::vector<Body>{}, cloth_gap(options.params),
+            particle_friction(topology_, model.cloth, model.fabrics));
     }
     if (cloth_contact_ && contact_ && contact_->motion_end() > 0)
         cloth_contact_->set_carry([this](State& state, double time) { contact_->move_to(state, time); });
@@ -129,7 +129,7 @@ void Phase::place(double time)
 
 void Phase::move_to(double time)
 {
-    if (cloth_contact_) {   // it moves them, as far as the cloth makes way
+    if (cloth_contact_) {  // it moves them, as far as the cloth makes way
         cloth_contact_->aim(pins_.places(time), time);
         return;
     }

@@ -5,27 +5,27 @@
 #include "host/solver/contact/fabric_contact.hpp"
 #include "host/solver/contact/pin_paths.hpp"
 #include "host/solver/linear/linear_solver.hpp"
+#include "host/solver/state/topology.hpp"
 #include "host/solver/stepping/newton.hpp"
 #include "host/solver/terms/rules.hpp"
-#include "host/solver/state/topology.hpp"
 
 namespace selvage {
 
 /// What all phases of a run share. The coarser cloths are the same panels at twice the edge length, and so on.
 struct ClothModel {
     Cloth cloth;
-    std::vector<Cloth> coarser;          ///< Finest of them first; may be empty.
-    std::vector<Transfer> transfers;     ///< From coarser[k] to the next finer cloth.
+    std::vector<Cloth> coarser;       ///< Finest of them first; may be empty.
+    std::vector<Transfer> transfers;  ///< From coarser[k] to the next finer cloth.
     FabricTable fabrics;
     std::vector<Body> bodies;
 };
 
 struct PhaseOptions {
     Params params;
-    bool joined = true;                  ///< Sewn vertices are one particle.
+    bool joined = true;  ///< Sewn vertices are one particle.
     bool float_solves = false;
     LinearOptions linear;
-    double contact_margin = 0.03;        ///< See FabricContact [m].
+    double contact_margin = 0.03;  ///< See FabricContact [m].
 };
 
 /// One phase of a run, sewing or draping: its particles, its terms and its solver.
@@ -55,8 +55,8 @@ public:
     const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
     /// Looks for contacts, intersections and cloth inside bodies afresh: where the state has been set from outside.
     void look_around();
-    double edge_length() const { return edge_length_; }   ///< Of a typical edge at rest [m].
-    double motion_end() const;   ///< Time after which bodies and pins stand still [s]; 0 if none moves.
+    double edge_length() const { return edge_length_; }  ///< Of a typical edge at rest [m].
+    double motion_end() const;  ///< Time after which bodies and pins stand still [s]; 0 if none moves.
     /// The longest part of `room`, from a time on, in which bodies and pins move no further than a step may.
     double longest_step(double time, double room) const;
     /// Puts the bodies where they are at a time; pinned vertices are where the state says.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/solver/terms/elastic_energy.hpp"
 #include "host/parallel/launch.hpp"
+#include "host/solver/terms/elastic_energy.hpp"
 
 namespace selvage {
 namespace {
@@ -35,8 +35,7 @@ namespace {
 
 bool closed(const SewingOptions& options, const SewingProgress& progress)
 {
-    const bool settled =
-        progress.energy_change <= options.energy_tolerance || progress.steps_without_gain >= patience;
+    const bool settled = progress.energy_change <= options.energy_tolerance || progress.steps_without_gain >= patience;
     return progress.gap <= options.closed && (settled || progress.gap <= 0.25 * options.closed);
 }
 
@@ -68,7 +67,7 @@ PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progres
     StepControl control(phase, *euler, {.longest = options.step});
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
-    newton.max_iterations = 3;   // on the way to a closed seam accuracy in time is worth nothing
+    newton.max_iterations = 3;  // on the way to a closed seam accuracy in time is worth nothing
     newton.tolerance = 1e-2;
     while (!closed(options, progress)) {
         if (progress.time >= options.max_time) return PhaseEnd::time_limit;

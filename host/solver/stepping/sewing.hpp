@@ -4,28 +4,28 @@
 namespace selvage {
 
 struct SewingOptions {
-    double step = 0.02;               ///< [s]
-    double closed = 0.002;            ///< Gap below which a pair counts as closed [m].
-    double energy_tolerance = 1e-4;   ///< Relative change of elastic energy between steps at which sewing may end [1].
-    double max_time = 6;              ///< [s]
-    double first_stiffness = 0;       ///< Seam stiffness at the start of sewing [N/m].
+    double step = 0.02;              ///< [s]
+    double closed = 0.002;           ///< Gap below which a pair counts as closed [m].
+    double energy_tolerance = 1e-4;  ///< Relative change of elastic energy between steps at which sewing may end [1].
+    double max_time = 6;             ///< [s]
+    double first_stiffness = 0;      ///< Seam stiffness at the start of sewing [N/m].
 };
 
 /// Where a sewing phase stands; kept in checkpoints.
 struct SewingProgress {
-    double time = 0;                  ///< [s]
-    double best_gap = 1e30;           ///< Smallest value of the largest gap so far [m].
+    double time = 0;         ///< [s]
+    double best_gap = 1e30;  ///< Smallest value of the largest gap so far [m].
     int steps_without_gain = 0;
-    double elastic_energy = 0;        ///< After the last step [J].
-    double gap = 1e30;                ///< Largest gap after the last step [m].
-    double energy_change = 1;         ///< Relative, of the last step [1].
-    double dt = 0;                    ///< Of the next step; 0: the longest [s].
+    double elastic_energy = 0;  ///< After the last step [J].
+    double gap = 1e30;          ///< Largest gap after the last step [m].
+    double energy_change = 1;   ///< Relative, of the last step [1].
+    double dt = 0;              ///< Of the next step; 0: the longest [s].
 };
 
 /// Where pressing stands; kept in checkpoints.
 struct PressProgress {
     int step = 0;
-    double dt = 0;                    ///< Of the next step; 0: the longest [s].
+    double dt = 0;  ///< Of the next step; 0: the longest [s].
 };
 
 /// Returns the largest distance of a stitched pair [m], 0 without stitches.

@@ -24,7 +24,7 @@ void spread(const std::vector<int>& corners, int stride, int count, int per_item
     for (int item = 0; item < count; ++item) {
         bool any = false;
         for (int c = 0; c < per_item; ++c) {
-            const int v = corners[c * stride + item];   // corners of bodies are below zero
+            const int v = corners[c * stride + item];  // corners of bodies are below zero
             any = any || (v >= 0 && before[v]);
         }
         for (int c = 0; any && c < per_item; ++c)
@@ -98,7 +98,9 @@ void put_to_sleep(Phase& phase, const std::vector<char>& is_awake, double force_
     awake.hinge = list_of(hinges_awake(s, is_awake));
 #define LIST(kind, corners) \
     awake.kind = list_of(items_awake(s.kind##_vertex, s.size.kind##_stride, s.size.kind##_count, corners, is_awake));
-    LIST(face, 3) LIST(stitch, 2) LIST(spring, 2)
+    LIST(face, 3)
+    LIST(stitch, 2)
+    LIST(spring, 2)
 #undef LIST
     for_each_item(s.size.vertex_count, [&s, &is_awake, vs = s.size.vertex_stride](int v) {
         if (is_awake[v]) return;
@@ -136,7 +138,8 @@ void rest_in_places(Phase& phase, int& steps_left)
     const std::vector<char> is_awake = restless(phase);
     const double awake = double(std::count(is_awake.begin(), is_awake.end(), 1));
     if (awake > worth_while * s.size.vertex_count || awake == 0) return;
-    const double left = sum_items(s.size.vertex_count, [&](int v) { return is_awake[v] ? 0.0 : squared(force, vs, v); });
+    const double left =
+        sum_items(s.size.vertex_count, [&](int v) { return is_awake[v] ? 0.0 : squared(force, vs, v); });
     put_to_sleep(phase, is_awake, left);
     steps_left = nap;
 }

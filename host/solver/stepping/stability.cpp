@@ -13,7 +13,7 @@ namespace {
 
 constexpr int most_products = 80;
 constexpr int products_between_looks = 10;
-constexpr double accuracy = 0.02;   // of the eigenvalue, so half of it for the frequency
+constexpr double accuracy = 0.02;  // of the eigenvalue, so half of it for the frequency
 
 double dot(const std::vector<real>& a, const std::vector<real>& b)
 {

@@ -12,8 +12,8 @@ namespace selvage {
 namespace {
 
 constexpr double stability_margin = 0.9;
-constexpr double least_fraction = 1.0 / 1024;   // of the longest step: below it a run has diverged
-constexpr double most_gain = 0.25;              // of the energy that has moved so far: more comes from nowhere
+constexpr double least_fraction = 1.0 / 1024;  // of the longest step: below it a run has diverged
+constexpr double most_gain = 0.25;             // of the energy that has moved so far: more comes from nowhere
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void StepControl::restore(const Saved& saved)
     const auto arrays = integrator_.history();
     for (std::size_t k = 0; k < arrays.size(); ++k) *arrays[k] = saved.history[k];
     if (phase_.contact()) phase_.contact()->update(state);
-    phase_.newton().list_pairs();   // what was listed on the way that is given up says nothing of this place
+    phase_.newton().list_pairs();  // what was listed on the way that is given up says nothing of this place
 }
 
 // The length of the next step when `left` seconds are to be covered; an explicit scheme divides them evenly.
@@ -113,8 +113,8 @@ bool StepControl::passed_into_body(bool last)
     return passed;
 }
 
-// Nothing feeds the cloth but bodies and pins that move, whose work is not known: without them its energy falls, but for
-// the waves of a scheme that keeps it on average.
+// Nothing feeds the cloth but bodies and pins that move, whose work is not known: without them its energy falls, but
+// for the waves of a scheme that keeps it on average.
 bool StepControl::keeps_energy(double span, double kinetic_before, double potential_before)
 {
     if (moves_ || !integrator_.may_gain_energy()) return true;
@@ -148,8 +148,9 @@ void StepControl::shrink(double dt)
     ++retries_;
     dt_ = 0.5 * dt;
     if (!(dt_ >= floor_))
-        throw DivergenceError(fmt::format("no step down to {:.3g} s succeeds (solver.step is {:.3g} s); residual {:.3g}",
-                                          dt_, options_.longest, report_.residual));
+        throw DivergenceError(
+            fmt::format("no step down to {:.3g} s succeeds (solver.step is {:.3g} s); residual {:.3g}", dt_,
+                        options_.longest, report_.residual));
 }
 
 double StepControl::advance(double room, const NewtonOptions& options, bool accurate)
@@ -179,8 +180,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
             give_up();
             return taken_ = 0;
         }
-        if (!done_well || passed_into_body(last) ||
-            (last && !keeps_energy(span, kinetic, potential))) {
+        if (!done_well || passed_into_body(last) || (last && !keeps_energy(span, kinetic, potential))) {
             give_up();
             done = 0;
             shrink(first);

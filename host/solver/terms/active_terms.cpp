@@ -51,7 +51,8 @@ void ActiveTerms::evaluate_forces(bool dissipative)
     if (dissipative)
         for (const Term* term : dissipative_) add(term);
     const Items vertices = items_of(state_, ItemKind::vertex);
-    profile_.timed("gather_forces", vertices.count, std::int64_t(gather_bytes(state_)) * vertices.count / state_.size.vertex_count,
+    profile_.timed("gather_forces", vertices.count,
+                   std::int64_t(gather_bytes(state_)) * vertices.count / state_.size.vertex_count,
                    [&] { gather_forces(state_); });
 }
 
@@ -109,10 +110,10 @@ double ActiveTerms::kinetic_energy() const
 {
     const int vs = state_.size.vertex_stride;
     return 0.5 * sum_items(state_.size.vertex_count, [this, vs](int v) {
-        double squared = 0;
-        for (int c = 0; c < 3; ++c) squared += state_.vel[c * vs + v] * state_.vel[c * vs + v];
-        return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
-    });
+               double squared = 0;
+               for (int c = 0; c < 3; ++c) squared += state_.vel[c * vs + v] * state_.vel[c * vs + v];
+               return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
+           });
 }
 
 double ActiveTerms::energy_of(std::string_view name) const

@@ -3,9 +3,9 @@
 #include <string_view>
 #include <vector>
 
-#include "host/solver/terms/params.hpp"
 #include "host/parallel/profile.hpp"
 #include "host/solver/state/state.hpp"
+#include "host/solver/terms/params.hpp"
 #include "host/solver/terms/terms.hpp"
 
 namespace selvage {
@@ -26,10 +26,10 @@ public:
 
     /// Of all conservative terms [J], of what is awake; counted in the profile.
     double energy();
-    double potential_energy() const;                 ///< Of the whole cloth, outside the profile [J].
-    double dissipation() const;                      ///< R of all dissipative terms [W].
-    double kinetic_energy() const;                   ///< [J]
-    double energy_of(std::string_view term) const;   ///< Energy of one term [J]; 0 if inactive.
+    double potential_energy() const;                ///< Of the whole cloth, outside the profile [J].
+    double dissipation() const;                     ///< R of all dissipative terms [W].
+    double kinetic_energy() const;                  ///< [J]
+    double energy_of(std::string_view term) const;  ///< Energy of one term [J]; 0 if inactive.
     bool dissipates() const { return !dissipative_.empty(); }
 
 private:
@@ -41,7 +41,7 @@ private:
     Profile& profile_;
 
     struct Traffic {
-        std::int64_t value, force, stiffness;   ///< [bytes]
+        std::int64_t value, force, stiffness;  ///< [bytes]
     };
     std::vector<const Term*> conservative_, dissipative_;
     std::map<const Term*, Traffic> traffic_;

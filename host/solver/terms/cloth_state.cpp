@@ -1,9 +1,9 @@
 #include "host/solver/terms/cloth_state.hpp"
 
+#include "host/parallel/trace.hpp"
 #include "host/solver/state/hysteresis.hpp"
 #include "host/solver/state/plate.hpp"
 #include "host/solver/terms/terms.hpp"
-#include "host/parallel/trace.hpp"
 
 namespace selvage {
 

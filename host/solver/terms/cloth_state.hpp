@@ -1,6 +1,6 @@
 #pragma once
-#include "host/solver/terms/params.hpp"
 #include "host/solver/state/topology.hpp"
+#include "host/solver/terms/params.hpp"
 
 namespace selvage {
 

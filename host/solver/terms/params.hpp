@@ -7,10 +7,16 @@ namespace selvage {
 /// The parameters of every term and rule, as `params.<term>.<parameter>`, in SI units. All strengths are zero at first.
 struct Params {
 #define PARAM(name, initial, unit, meaning) real name = real(initial);
-#define TERM(term, per, nature, stage) struct { term##_PARAMS(PARAM, PARAM) } term;
+#define TERM(term, per, nature, stage) \
+    struct {                           \
+        term##_PARAMS(PARAM, PARAM)    \
+    } term;
     TERMS(TERM)
 #undef TERM
-#define RULE(rule, per) struct { rule##_PARAMS(PARAM, PARAM) } rule;
+#define RULE(rule, per)             \
+    struct {                        \
+        rule##_PARAMS(PARAM, PARAM) \
+    } rule;
     RULES(RULE)
 #undef RULE
 #undef PARAM

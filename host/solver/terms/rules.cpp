@@ -11,21 +11,21 @@ namespace {
 #define SET_PARAM(name, initial, unit, meaning) a.name = values.name;
 #define OR_NON_ZERO(name, initial, unit, meaning) || values.name != 0
 #define IGNORE(name, initial, unit, meaning)
-#define RULE(rule, kind)                                                                                    \
-    struct rule##_traits {                                                                                  \
-        static constexpr std::string_view name = #rule;                                                     \
-        static constexpr ItemKind per = ItemKind::kind;                                                     \
-        static constexpr auto kernel = rule##_apply;                                                        \
-        static FieldSet fields() { return field_set({rule##_FIELDS(LIST_FIELD, LIST_FIELD)}); }             \
-        static int count(const mesh_sizes& size) { return size.kind##_count; }                              \
-        static const auto& values(const Params& params) { return params.rule; }                             \
-        static bool any_strength(const auto& values) { return false rule##_PARAMS(OR_NON_ZERO, IGNORE); }   \
-        static void bind(rule##_args& a, State& state, const auto& values)                                  \
-        {                                                                                                   \
-            a.size = state.size;                                                                            \
-            rule##_FIELDS(SET_FIELD, SET_FIELD) rule##_PARAMS(SET_PARAM, SET_PARAM)                         \
-        }                                                                                                   \
-        using Args = rule##_args;                                                                           \
+#define RULE(rule, kind)                                                                                  \
+    struct rule##_traits {                                                                                \
+        static constexpr std::string_view name = #rule;                                                   \
+        static constexpr ItemKind per = ItemKind::kind;                                                   \
+        static constexpr auto kernel = rule##_apply;                                                      \
+        static FieldSet fields() { return field_set({rule##_FIELDS(LIST_FIELD, LIST_FIELD)}); }           \
+        static int count(const mesh_sizes& size) { return size.kind##_count; }                            \
+        static const auto& values(const Params& params) { return params.rule; }                           \
+        static bool any_strength(const auto& values) { return false rule##_PARAMS(OR_NON_ZERO, IGNORE); } \
+        static void bind(rule##_args& a, State& state, const auto& values)                                \
+        {                                                                                                 \
+            a.size = state.size;                                                                          \
+            rule##_FIELDS(SET_FIELD, SET_FIELD) rule##_PARAMS(SET_PARAM, SET_PARAM)                       \
+        }                                                                                                 \
+        using Args = rule##_args;                                                                         \
     };
 RULES(RULE)
 #undef RULE

@@ -8,13 +8,13 @@ namespace selvage {
 
 /// What the planner and the solver know about one rule: a change of the state after a step that is no force.
 struct Rule {
-    std::string_view name;                              ///< As listed in kernels/rules.h.
-    ItemKind per;                                       ///< Kind of its items.
-    FieldSet fields;                                    ///< State arrays the rule reads or changes.
-    int bytes_per_item;                                 ///< Bytes of those fields per item of its own kind.
-    bool (*is_active)(const Params&);                   ///< True if any strength is non-zero.
+    std::string_view name;             ///< As listed in kernels/rules.h.
+    ItemKind per;                      ///< Kind of its items.
+    FieldSet fields;                   ///< State arrays the rule reads or changes.
+    int bytes_per_item;                ///< Bytes of those fields per item of its own kind.
+    bool (*is_active)(const Params&);  ///< True if any strength is non-zero.
     int (*item_count)(const mesh_sizes&);
-    void (*apply)(State&, const Params&, double dt);    ///< Ends a step of dt [s].
+    void (*apply)(State&, const Params&, double dt);  ///< Ends a step of dt [s].
 };
 
 /// Returns all rules, in the order of kernels/rules.h.

@@ -19,25 +19,25 @@ constexpr std::nullptr_t no_stage = nullptr;
 #define SET_PARAM(name, initial, unit, meaning) a.name = values.name;
 #define OR_NON_ZERO(name, initial, unit, meaning) || values.name != 0
 #define IGNORE(name, initial, unit, meaning)
-#define TERM(term, kind, nature_of_term, stage_before)                                                                    \
-    struct term##_traits {                                                                                  \
-        static constexpr std::string_view name = #term;                                                     \
-        static constexpr ItemKind per = ItemKind::kind;                                                     \
-        static constexpr Nature nature = Nature::nature_of_term;                                            \
-        static FieldSet fields() { return field_set({term##_FIELDS(LIST_FIELD, LIST_FIELD)}); }                \
-        static constexpr auto stage = stage_before;                                                         \
-        static constexpr auto force = term##_force;                                                         \
-        static constexpr auto stiffness = term##_stiffness;                                                 \
-        static constexpr auto energy = term##_energy;                                                       \
-        static int count(const mesh_sizes& size) { return size.kind##_count; }                              \
-        static const auto& values(const Params& params) { return params.term; }                             \
-        static bool any_strength(const auto& values) { return false term##_PARAMS(OR_NON_ZERO, IGNORE); }   \
-        static void bind(term##_args& a, State& state, const auto& values)                                   \
-        {                                                                                                   \
-            a.size = state.size;                                                                            \
-            term##_FIELDS(SET_READ, SET_ADD) term##_PARAMS(SET_PARAM, SET_PARAM)                            \
-        }                                                                                                   \
-        using Args = term##_args;                                                                           \
+#define TERM(term, kind, nature_of_term, stage_before)                                                    \
+    struct term##_traits {                                                                                \
+        static constexpr std::string_view name = #term;                                                   \
+        static constexpr ItemKind per = ItemKind::kind;                                                   \
+        static constexpr Nature nature = Nature::nature_of_term;                                          \
+        static FieldSet fields() { return field_set({term##_FIELDS(LIST_FIELD, LIST_FIELD)}); }           \
+        static constexpr auto stage = stage_before;                                                       \
+        static constexpr auto force = term##_force;                                                       \
+        static constexpr auto stiffness = term##_stiffness;                                               \
+        static constexpr auto energy = term##_energy;                                                     \
+        static int count(const mesh_sizes& size) { return size.kind##_count; }                            \
+        static const auto& values(const Params& params) { return params.term; }                           \
+        static bool any_strength(const auto& values) { return false term##_PARAMS(OR_NON_ZERO, IGNORE); } \
+        static void bind(term##_args& a, State& state, const auto& values)                                \
+        {                                                                                                 \
+            a.size = state.size;                                                                          \
+            term##_FIELDS(SET_READ, SET_ADD) term##_PARAMS(SET_PARAM, SET_PARAM)                          \
+        }                                                                                                 \
+        using Args = term##_args;                                                                         \
     };
 TERMS(TERM)
 #undef TERM
@@ -89,10 +89,10 @@ Term describe()
                 }};
 }
 
-#define GATHER_FIELDS(kind, corners)                                     \
-    if (fields[std::size_t(Field::kind##_force)]) {                      \
-        fields.set(std::size_t(Field::kind##_slots));                    \
-        fields.set(std::size_t(Field::kind##_slot));                     \
+#define GATHER_FIELDS(kind, corners)                  \
+    if (fields[std::size_t(Field::kind##_force)]) {   \
+        fields.set(std::size_t(Field::kind##_slots)); \
+        fields.set(std::size_t(Field::kind##_slot));  \
     }
 
 // Planes of a field of which only some items are to be cleared.
@@ -129,11 +129,17 @@ Items items_of(const State& state, ItemKind kind)
 {
     const AwakeItems& awake = state.awake;
     switch (kind) {
-#define AWAKE(kind) \
-    case ItemKind::kind: return awake.all ? Items{state.size.kind##_count} : Items{int(awake.kind.size()), awake.kind.data()};
-        AWAKE(vertex) AWAKE(face) AWAKE(hinge) AWAKE(stitch) AWAKE(spring)
+#define AWAKE(kind)      \
+    case ItemKind::kind: \
+        return awake.all ? Items{state.size.kind##_count} : Items{int(awake.kind.size()), awake.kind.data()};
+        AWAKE(vertex)
+        AWAKE(face)
+        AWAKE(hinge)
+        AWAKE(stitch)
+        AWAKE(spring)
 #undef AWAKE
-    case ItemKind::pair: break;   // few, and between those awake and those asleep
+        case ItemKind::pair:
+            break;  // few, and between those awake and those asleep
     }
     return {state.size.pair_count};
 }
@@ -189,12 +195,12 @@ void add_pair_diagonals(State& state)
 
 void gather_forces(State& state)
 {
-#define GATHER(kind, corners)                                                                                  \
-    if (!state.kind##_force.empty())                                                                           \
-        launch<gather_force>(items_of(state, ItemKind::vertex),                                                        \
-                             gather_args{state.kind##_slots.data(), state.kind##_slot.data(),                  \
-                                         state.kind##_force.data(), state.force.data(),                        \
-                                         state.size.vertex_stride, state.size.kind##_stride});
+#define GATHER(kind, corners)                                                                           \
+    if (!state.kind##_force.empty())                                                                    \
+        launch<gather_force>(                                                                           \
+            items_of(state, ItemKind::vertex),                                                          \
+            gather_args{state.kind##_slots.data(), state.kind##_slot.data(), state.kind##_force.data(), \
+                        state.force.data(), state.size.vertex_stride, state.size.kind##_stride});
     GATHERED_KINDS(GATHER)
 #undef GATHER
 }

@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "host/parallel/launch.hpp"
-#include "host/solver/terms/params.hpp"
 #include "host/solver/state/state.hpp"
+#include "host/solver/terms/params.hpp"
 
 namespace selvage {
 
@@ -13,23 +13,24 @@ enum class ItemKind { vertex, face, hinge, stitch, spring, pair };
 
 /// What the planner, the solver, the tests and the documentation know about one force term.
 struct Term {
-    std::string_view name;                              ///< As listed in kernels/terms.h.
-    ItemKind per;                                       ///< Kind of its items.
+    std::string_view name;  ///< As listed in kernels/terms.h.
+    ItemKind per;           ///< Kind of its items.
     Nature nature;
-    FieldSet fields;                                    ///< State arrays the term reads or adds to.
-    int bytes_per_item;                                 ///< Bytes of those fields per item of its own kind.
-    bool (*is_active)(const Params&);                   ///< True if any strength is non-zero.
+    FieldSet fields;                   ///< State arrays the term reads or adds to.
+    int bytes_per_item;                ///< Bytes of those fields per item of its own kind.
+    bool (*is_active)(const Params&);  ///< True if any strength is non-zero.
     int (*item_count)(const mesh_sizes&);
-    void (*add_force)(State&, const Params&);           ///< Adds -dE/dx, or -dR/dv, to its items' forces [N].
+    void (*add_force)(State&, const Params&);  ///< Adds -dE/dx, or -dR/dv, to its items' forces [N].
     void (*add_stiffness)(State&, const Params&, bool projected);  ///< Adds d2E/dx2 [N/m], or d2R/dv2 [kg/s].
-    double (*energy)(State&, const Params&);            ///< Returns E [J], or R [W] of a dissipative term.
+    double (*energy)(State&, const Params&);                       ///< Returns E [J], or R [W] of a dissipative term.
 };
 
 /// Returns all terms, in the order of kernels/terms.h.
 std::span<const Term> all_terms();
 
 /// Returns the fields a scene with these parameters needs: positions, masses, and the union over its active
-/// terms and rules with their gather lists. A term whose strengths are all zero adds no field here and no launch to a step.
+/// terms and rules with their gather lists. A term whose strengths are all zero adds no field here and no launch to a
+/// step.
 FieldSet required_fields(const Params& params);
 
 /// The items of a kind that take part in the steps at present.

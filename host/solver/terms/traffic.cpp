@@ -19,9 +19,12 @@ std::size_t item_count(const mesh_sizes& size, std::string_view kind)
 bool is_allocated(const State& state, Field field)
 {
     switch (field) {
-#define FIELD(type, name, per, components, unit, meaning) case Field::name: return !state.name.empty();
+#define FIELD(type, name, per, components, unit, meaning) \
+    case Field::name:                                     \
+        return !state.name.empty();
 #include "kernels/fields.def"
-    case Field::count: break;
+        case Field::count:
+            break;
     }
     return false;
 }
@@ -187,9 +190,9 @@ std::size_t product_bytes(const State& state, const BlockPattern& pattern)
     if (!state.coupling_slots.empty()) {
         // Turns from slopes, moments from turns, and what these do to vertices; turns and moments are written and read.
         const std::size_t per_hinge = std::size_t(state.size.hinge_count) * sizeof(double);
-        total += pass_bytes(state, {Field::hinge_vertex, Field::hinge_slope, Field::hinge_rigidity, Field::coupling_slots,
-                                    Field::coupling_hinge, Field::coupling_rigidity, Field::hinge_slots,
-                                    Field::hinge_slot, Field::hinge_slope}) +
+        total += pass_bytes(state, {Field::hinge_vertex, Field::hinge_slope, Field::hinge_rigidity,
+                                    Field::coupling_slots, Field::coupling_hinge, Field::coupling_rigidity,
+                                    Field::hinge_slots, Field::hinge_slot, Field::hinge_slope}) +
                  4 * per_hinge + 3 * vector;
     }
     if (state.size.pair_count > 0) {

@@ -18,9 +18,9 @@ enum class TermPart { value, force, stiffness };
 /// items touch, and the accumulators of that part read and written. 0 for the stiffness of a term that has none.
 std::size_t term_bytes(const Term& term, const State& state, TermPart part);
 
-std::size_t clear_forces_bytes(const State& state);      ///< Written.
-std::size_t clear_stiffness_bytes(const State& state);   ///< Written.
-std::size_t gather_bytes(const State& state);            ///< Slot lists, element forces and the forces they are added to.
+std::size_t clear_forces_bytes(const State& state);     ///< Written.
+std::size_t clear_stiffness_bytes(const State& state);  ///< Written.
+std::size_t gather_bytes(const State& state);  ///< Slot lists, element forces and the forces they are added to.
 std::size_t settle_friction_bytes(const State& state);
 std::size_t settle_hysteresis_bytes(const State& state);
 /// Of the query's arguments: positions, normals, offsets and bodies. What a search reads of the body is not counted.
@@ -32,7 +32,7 @@ std::size_t assemble_bytes(const State& state, const BlockPattern& pattern);
 std::size_t product_bytes(const State& state, const BlockPattern& pattern);
 std::size_t block_jacobi_bytes(const BlockPattern& pattern);
 std::size_t dot_bytes(const BlockPattern& pattern);
-std::size_t update_bytes(const BlockPattern& pattern);   ///< Of x += a p, r -= a q.
+std::size_t update_bytes(const BlockPattern& pattern);  ///< Of x += a p, r -= a q.
 /// Of one V-cycle: all passes of Multigrid::cycle over all levels, the coarse patterns being those of P^T A P.
 std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleTransfers& transfers);
 

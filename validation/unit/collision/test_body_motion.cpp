@@ -4,9 +4,9 @@
 #include <numbers>
 #include <random>
 
-#include "host/scene/body_model.hpp"
 #include "host/collision/body_query.hpp"
 #include "host/mesh/body_tessellation.hpp"
+#include "host/scene/body_model.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;
@@ -148,7 +148,8 @@ TEST_CASE("queries that are skipped while bodies move do not change the answers"
     ball.kind = Body::Kind::sphere;
     ball.radius = 0.05;
     ball.mesh = sphere_mesh({0, 0, 0}, 0.05, 3);
-    ball.motion = std::make_shared<BodyMotion>(std::vector<MotionKey>{{}, {1, Vec3(0.6, 0, 0), Vec3::Zero()}}, false, Vec3::Zero());
+    ball.motion = std::make_shared<BodyMotion>(std::vector<MotionKey>{{}, {1, Vec3(0.6, 0, 0), Vec3::Zero()}}, false,
+                                               Vec3::Zero());
     BodyQuery walking({ball}, everywhere);
     Answers answers(random_points(1000, 0.5));
     for (int step = 0; step <= 50; ++step) {
@@ -189,20 +190,22 @@ TEST_CASE("ways into bodies are those relative to the moving body")
     ball.kind = Body::Kind::sphere;
     ball.radius = 0.1;
     ball.mesh = sphere_mesh({0, 0, 0}, 0.1, 4);
-    ball.motion = std::make_shared<BodyMotion>(std::vector<MotionKey>{{}, {1, Vec3(1, 0, 0), Vec3::Zero()}}, false, Vec3::Zero());
+    ball.motion =
+        std::make_shared<BodyMotion>(std::vector<MotionKey>{{}, {1, Vec3(1, 0, 0), Vec3::Zero()}}, false, Vec3::Zero());
     Body mesh = ball;
     mesh.kind = Body::Kind::mesh;
     for (const Body& body : {ball, mesh}) {
         BodyQuery query({body}, everywhere);
         query.move_to(0.3);
         // One that stands still is met, one that flees is not, and one that the body has passed by was met as well.
-        const Answers from({{0.2, 0, 0}, {0.2, 0, 0}, {0.15, 0.01, 0}}), to({{0.25, 0, 0}, {0.5, 0, 0}, {0.15, 0.01, 0}});
+        const Answers from({{0.2, 0, 0}, {0.2, 0, 0}, {0.15, 0.01, 0}}),
+            to({{0.25, 0, 0}, {0.5, 0, 0}, {0.15, 0.01, 0}});
         const auto found = query.crossings(from.position.data(), to.position.data(), from.stride, from.count);
         CHECK(found[0].body == 0);
         CHECK(found[1].body == -1);
         CHECK(found[2].body == 0);
         CHECK(found[0].way_beyond == Approx(0.15).margin(1e-3));
-        query.move_to(0.3);   // nothing moves: paths are as given
+        query.move_to(0.3);  // nothing moves: paths are as given
         CHECK(query.crossings(from.position.data(), to.position.data(), from.stride, from.count)[2].body == -1);
     }
 }
@@ -239,8 +242,8 @@ TEST_CASE("a sequence of meshes and a single target pose move a body, and other 
 {
     const ScratchFolder folder;
     const auto tetrahedron = [&](const char* name, double height, const char* face = "f 1 2 4") {
-        return folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 " + std::to_string(height) +
-                                      "\nf 1 3 2\n" + face + "\nf 2 3 4\nf 3 1 4\n");
+        return folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 " + std::to_string(height) + "\nf 1 3 2\n" + face +
+                                      "\nf 2 3 4\nf 3 1 4\n");
     };
     tetrahedron("pose_1.obj", 1);
     tetrahedron("pose_2.obj", 2);
@@ -254,8 +257,9 @@ TEST_CASE("a sequence of meshes and a single target pose move a body, and other 
     CHECK(sequence.motion->end() == 1);
     CHECK(body_mesh_at(sequence, 0.25).vertices[3].z() == Approx(1.5));
     CHECK(body_mesh_at(sequence, 0.75).vertices[3].z() == Approx(3));
-    const Body morph = built("mesh = \"pose_1.obj\"\n[[body.keyframe]]\ntime = 1\n[[body.keyframe]]\ntime = 3\n"
-                             "mesh = \"pose_3.obj\"\n");
+    const Body morph = built(
+        "mesh = \"pose_1.obj\"\n[[body.keyframe]]\ntime = 1\n[[body.keyframe]]\ntime = 3\n"
+        "mesh = \"pose_3.obj\"\n");
     CHECK(body_mesh_at(morph, 1).vertices[3].z() == 1);
     CHECK(body_mesh_at(morph, 2).vertices[3].z() == Approx(2.5));
     CHECK_THROWS_WITH(built("mesh = \"pose_1.obj\"\n[[body.keyframe]]\ntime = 1\nmesh = \"other.obj\"\n"),

@@ -119,8 +119,7 @@ Jumps largest_jumps(const std::vector<Body>& bodies, const std::vector<Vec3>& pa
         REQUIRE(points.body[v] == 0);
         if (v == 0) continue;
         jumps.gap = std::max(jumps.gap, std::abs(points.gap(v) - points.gap(v - 1)));
-        jumps.normal =
-            std::max(jumps.normal, (points.at(points.normal, v) - points.at(points.normal, v - 1)).norm());
+        jumps.normal = std::max(jumps.normal, (points.at(points.normal, v) - points.at(points.normal, v - 1)).norm());
     }
     return jumps;
 }
@@ -208,7 +207,7 @@ TEST_CASE("a fine sphere mesh gives the contacts of the closed form", "[body]")
 {
     const double radius = 0.25;
     const TriangleMesh mesh = sphere_mesh(Vec3::Zero(), radius, 5);
-    double sag = 0;                  // how far the facets lie inside the sphere
+    double sag = 0;  // how far the facets lie inside the sphere
     for (const Face& f : mesh.faces)
         sag = std::max(sag, radius - (mesh.vertices[f[0]] + mesh.vertices[f[1]] + mesh.vertices[f[2]]).norm() / 3);
     REQUIRE(sag < 1e-4);
@@ -236,7 +235,7 @@ TEST_CASE("gap and normal are continuous across the facets of a coarse sphere", 
         const double t = 2 * 3.14159265358979 * k / 20000;
         path.push_back(0.505 * Vec3(std::cos(t), std::sin(t) * 0.8, std::sin(t) * 0.6));
     }
-    const Jumps jumps = largest_jumps(bodies, path, 0.05);   // steps of 1.6e-4 m turn the radius by 3.1e-4
+    const Jumps jumps = largest_jumps(bodies, path, 0.05);  // steps of 1.6e-4 m turn the radius by 3.1e-4
     CHECK(jumps.gap < 1e-4);
     CHECK(jumps.normal < 6e-4);
 }
@@ -249,7 +248,7 @@ TEST_CASE("gap and normal are continuous across a concave crease", "[body]")
     const Jumps near =
         largest_jumps({mesh_body(valley_mesh())}, straight_path({-0.01, 0.1, 0.012}, {0.01, -0.1, 0.012}, 4001), 0.5);
     CHECK(near.gap < 1e-4);
-    CHECK(near.normal < 0.03);       // the facets' normals are 1.41 apart
+    CHECK(near.normal < 0.03);  // the facets' normals are 1.41 apart
 }
 
 TEST_CASE("around the sharp rim of a cylinder the contact is exact and turns continuously", "[body]")
@@ -260,7 +259,7 @@ TEST_CASE("around the sharp rim of a cylinder the contact is exact and turns con
     CHECK(signed_volume(bodies[0].mesh) == Approx(3.14159265358979 * radius * radius * height).epsilon(2e-4));
 
     const Vec3 out = Vec3(std::cos(0.3), std::sin(0.3), 0);
-    const double off = 1e-3;         // distance of the path from the surface
+    const double off = 1e-3;  // distance of the path from the surface
     const Vec3 above(0, 0, 0.05 + off);
     std::vector<Vec3> path = straight_path(0.05 * out + above, radius * out + above, 500);
     for (int k = 1; k < 500; ++k) {
@@ -313,7 +312,7 @@ TEST_CASE("signs are right around acute edges and corners", "[body]")
     const BodyQuery query({mesh_body(sliver)}, everywhere);
     for (const Vec3& corner : sliver.vertices)
         for (const Vec3& shift : random_points(300, 0.05)) {
-            double highest = -1e9;       // inside if below the planes of all faces
+            double highest = -1e9;  // inside if below the planes of all faces
             for (int t = 0; t < 4; ++t)
                 highest = std::max(highest, surface.face_normal(t).dot(corner + shift - surface.corner(t, 0)));
             const Points one({corner + shift});
@@ -338,14 +337,14 @@ TEST_CASE("paths that enter a body are found with their fraction, and grazing on
     BodyQuery query({mesh_body(box_mesh(half))}, everywhere);
     const Vec3 x(0.1, 0.05, 0);
     const std::vector<std::pair<Vec3, Vec3>> paths = {
-        {x + Vec3(0, 0, 0.5), x + Vec3(0, 0, 0.3)},                 // in through the top, half way
-        {x + Vec3(0, 0, 0.3), x + Vec3(0, 0, 0.5)},                 // out
-        {x + Vec3(0, 0, 0.9), x + Vec3(0, 0, -0.9)},                // through and out again
-        {{-0.5, 0, 0.4001}, {0.5, 0, 0.4001}},                      // grazes the top
-        {{-0.5, 0, 0.5}, {0.2, 0, 0.4000001}},                      // ends just above the top
-        {{0.4, 0.3, 0.5}, {0.2, 0.1, 0.3}},                         // through a corner's diagonal
-        {{0, 0, 0.401}, {0, 0, 0.399}},                             // through the diagonal edge of two triangles
-        {x + Vec3(0, 0, 0.4), x + Vec3(0, 0, 0.39)},                // starts on the surface
+        {x + Vec3(0, 0, 0.5), x + Vec3(0, 0, 0.3)},   // in through the top, half way
+        {x + Vec3(0, 0, 0.3), x + Vec3(0, 0, 0.5)},   // out
+        {x + Vec3(0, 0, 0.9), x + Vec3(0, 0, -0.9)},  // through and out again
+        {{-0.5, 0, 0.4001}, {0.5, 0, 0.4001}},        // grazes the top
+        {{-0.5, 0, 0.5}, {0.2, 0, 0.4000001}},        // ends just above the top
+        {{0.4, 0.3, 0.5}, {0.2, 0.1, 0.3}},           // through a corner's diagonal
+        {{0, 0, 0.401}, {0, 0, 0.399}},               // through the diagonal edge of two triangles
+        {x + Vec3(0, 0, 0.4), x + Vec3(0, 0, 0.39)},  // starts on the surface
         {x, x},
     };
     std::vector<Vec3> from, to;
@@ -382,8 +381,10 @@ TEST_CASE("random paths enter the closed forms where their gap changes sign", "[
             };
             double least = 1e9;
             for (int k = 0; k <= 20; ++k) least = std::min(least, gap_at(k / 20.0));
-            if (gap_at(0) < 0) CHECK(found[v].fraction > 1);
-            else if (least < 0) CHECK(found[v].fraction <= 1);
+            if (gap_at(0) < 0)
+                CHECK(found[v].fraction > 1);
+            else if (least < 0)
+                CHECK(found[v].fraction <= 1);
             if (found[v].fraction > 1) continue;
             ++entered;
             CHECK(std::abs(gap_at(found[v].fraction)) < 1e-9);
@@ -394,8 +395,8 @@ TEST_CASE("random paths enter the closed forms where their gap changes sign", "[
 
 TEST_CASE("skipped queries change no answer over a random walk, on any number of threads", "[body]")
 {
-    const std::vector<Body> bodies{mesh_body(sphere_mesh(Vec3::Zero(), 0.3, 3)),
-                                   mesh_body(box_mesh({0.5, 0.1, 0.1})), capsule_body({0, 0, 0.5}, {0.2, 0, 0.6}, 0.1)};
+    const std::vector<Body> bodies{mesh_body(sphere_mesh(Vec3::Zero(), 0.3, 3)), mesh_body(box_mesh({0.5, 0.1, 0.1})),
+                                   capsule_body({0, 0, 0.5}, {0.2, 0, 0.6}, 0.1)};
     BodyQuery walking(bodies, everywhere), fresh(bodies, everywhere);
     Points a(random_points(800, 0.8)), b = a;
     std::mt19937 random(1);

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "host/scene/body_shapes.hpp"
 #include "host/mesh/body_tessellation.hpp"
+#include "host/scene/body_shapes.hpp"
 
 using namespace selvage;
 
@@ -18,9 +18,9 @@ TEST_CASE("bodies of a scene are placed as it says, and impossible ones are refu
     mesh.vertices = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}};
     mesh.faces = {{0, 1, 2}};
     const Body placed = make_body(body_scene, scene, 0, mesh);
-    CHECK((placed.mesh.vertices[0] - Vec3(0, 0, 3)).norm() < 1e-12);    // y to z by x; z is kept by z
-    CHECK((placed.mesh.vertices[1] - Vec3(0, 2, 1)).norm() < 1e-12);    // x is kept by x; x to y by z
-    CHECK((placed.mesh.vertices[2] - Vec3(2, 0, 1)).norm() < 1e-12);    // z to -y by x; -y to x by z
+    CHECK((placed.mesh.vertices[0] - Vec3(0, 0, 3)).norm() < 1e-12);  // y to z by x; z is kept by z
+    CHECK((placed.mesh.vertices[1] - Vec3(0, 2, 1)).norm() < 1e-12);  // x is kept by x; x to y by z
+    CHECK((placed.mesh.vertices[2] - Vec3(2, 0, 1)).norm() < 1e-12);  // z to -y by x; -y to x by z
 
     TriangleMesh inside_out = sphere_mesh(Vec3::Zero(), 1, 2);
     const double volume = signed_volume(inside_out);

@@ -48,8 +48,9 @@ pair_weights weights(const PairCorners& x, bool edges)
     return edges ? closest_edge_edge(at(0), at(1), at(2), at(3)) : closest_point_face(at(0), at(1), at(2), at(3));
 }
 
-// The closest points are points of the two sides, and no sample of these is closer. Samples are dense enough that one of
-// them is nearly as close. Edges that cross at a sine below 1e-6 are taken for parallel, which costs that part of them.
+// The closest points are points of the two sides, and no sample of these is closer. Samples are dense enough that one
+// of them is nearly as close. Edges that cross at a sine below 1e-6 are taken for parallel, which costs that part of
+// them.
 void check_closest(const PairCorners& x, bool edges, double parallel_sine = 0)
 {
     const pair_weights p = weights(x, edges);
@@ -94,7 +95,7 @@ TEST_CASE("closest points of slivers and of parallel and nearly parallel edges a
     Corners corners(3);
     for (int trial = 0; trial < 60; ++trial) {
         PairCorners x = corners.pair();
-        x[3] = x[1] + (0.5 + 0.5 * corners.number()) * (x[2] - x[1]) + 1e-7 * corners.point();   // a sliver
+        x[3] = x[1] + (0.5 + 0.5 * corners.number()) * (x[2] - x[1]) + 1e-7 * corners.point();  // a sliver
         INFO("sliver " << trial);
         check_closest(x, false);
         for (double off : {0.0, 1e-9, 1e-6, 1e-3}) {
@@ -155,10 +156,11 @@ TEST_CASE("a move that meets head on is free for nearly all of its way", "[close
         const PairCorners edges{Vec3(-1, 0, height), Vec3(1, 0, height), Vec3(0, -1, 0), Vec3(0, 1, 0)};
         const Vec3 down(0, 0, -length), none = Vec3::Zero();
         const double allowed = (1 - keep) * height / length;
-        for (double shift : {0.0, 5.0}) {   // what both sides have in common does not count
+        for (double shift : {0.0, 5.0}) {  // what both sides have in common does not count
             const Vec3 common(shift, -shift, 2 * shift);
             const double of_face = free_part(face, {down + common, none + common, none + common, none + common}, false);
-            const double of_edges = free_part(edges, {down + common, down + common, none + common, none + common}, true);
+            const double of_edges =
+                free_part(edges, {down + common, down + common, none + common, none + common}, true);
             for (double part : {of_face, of_edges}) {
                 CHECK(part <= allowed * (1 + 1e-9));
                 CHECK(part >= 0.85 * allowed);

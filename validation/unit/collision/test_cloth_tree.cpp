@@ -10,7 +10,7 @@ using namespace selvage;
 
 namespace {
 
-constexpr double spacing = 0.02, reach = 0.15 * spacing;   // below a quarter of what lies between unlike parts of a face
+constexpr double spacing = 0.02, reach = 0.15 * spacing;  // below a quarter of what lies between unlike parts of a face
 constexpr int side = 9;
 
 using Key = std::pair<bool, std::array<int, 4>>;
@@ -109,7 +109,7 @@ int check_complete(const Sheets& scene, ClothTree& tree, const std::vector<Vec3>
     std::set<Key> found;
     for (const PairCandidate& c : tree.candidates()) {
         CHECK(scene.apart(c));
-        CHECK(found.insert(key_of(c)).second);   // each is named once
+        CHECK(found.insert(key_of(c)).second);  // each is named once
     }
     const std::set<Key> near = scene.near_pairs(x, move);
     std::vector<Key> missing;
@@ -194,11 +194,12 @@ TEST_CASE("a sheet that is flat or gently curved has no candidates and is skippe
 {
     const Cloth cloth = grid_cloth(33, 33, spacing);
     const int stride = padded_stride(int(cloth.positions.size()));
-    for (double curvature : {0.0, 0.3, 1.0}) {   // [1/m]; the sheet has 0.64 m
+    for (double curvature : {0.0, 0.3, 1.0}) {  // [1/m]; the sheet has 0.64 m
         ClothTree tree(tree_surface(make_topology(cloth, false), cloth), 0.15 * spacing);
         std::vector<Vec3> x = cloth.positions;
         if (curvature > 0)
-            for (Vec3& p : x) p = {std::sin(curvature * p.x()) / curvature, p.y(), std::cos(curvature * p.x()) / curvature};
+            for (Vec3& p : x)
+                p = {std::sin(curvature * p.x()) / curvature, p.y(), std::cos(curvature * p.x()) / curvature};
         const std::vector<real> pos = as_planes(x, stride);
         tree.cover(pos.data(), nullptr, stride, {{}}, 0.002, 0.002);
         CHECK(tree.candidates().empty());

@@ -24,8 +24,9 @@ std::set<Key> close(const std::vector<PairCandidate>& candidates, const std::vec
         if (!(pair_distance({x[c.corner[0]], x[c.corner[1]], x[c.corner[2]], x[c.corner[3]]}, c.edges) < gap)) continue;
         std::sort(c.corner.begin() + (c.edges ? 0 : 1), c.corner.begin() + (c.edges ? 2 : 4));
         if (c.edges) std::sort(c.corner.begin() + 2, c.corner.end());
-        if (c.edges && c.corner[2] < c.corner[0]) std::swap_ranges(c.corner.begin(), c.corner.begin() + 2, c.corner.begin() + 2);
-        CHECK(result.insert({c.edges, c.corner}).second);   // each comes once
+        if (c.edges && c.corner[2] < c.corner[0])
+            std::swap_ranges(c.corner.begin(), c.corner.begin() + 2, c.corner.begin() + 2);
+        CHECK(result.insert({c.edges, c.corner}).second);  // each comes once
     }
     return result;
 }

@@ -22,8 +22,8 @@ int whole_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
         v[k] = Whole(c[k]) - Whole(a[k]);
         w[k] = Whole(d[k]) - Whole(a[k]);
     }
-    const Whole value = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-                        u[2] * (v[0] * w[1] - v[1] * w[0]);
+    const Whole value =
+        u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
     return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
@@ -35,7 +35,8 @@ std::vector<IntersectingPair> all_pairs(const TriangleMesh& mesh)
 {
     std::vector<IntersectingPair> pairs;
     const auto triangle = [&](int f) {
-        return Triangle{mesh.vertices[mesh.faces[f][0]], mesh.vertices[mesh.faces[f][1]], mesh.vertices[mesh.faces[f][2]]};
+        return Triangle{mesh.vertices[mesh.faces[f][0]], mesh.vertices[mesh.faces[f][1]],
+                        mesh.vertices[mesh.faces[f][2]]};
     };
     for (int a = 0; a < int(mesh.faces.size()); ++a)
         for (int b = a + 1; b < int(mesh.faces.size()); ++b)
@@ -76,11 +77,11 @@ TEST_CASE("closed triangles meet where they cross, touch or overlap, and only th
     CHECK_FALSE(triangles_meet(base, moved(upright, {1, 1, 0})));
     CHECK_FALSE(triangles_meet(base, moved(base, {0, 0, 1e-300})));
     CHECK(triangles_meet(base, moved(base, {0.9, 0, 0})));
-    CHECK(triangles_meet(base, moved(base, {1, 0, 0})));              // corner on corner
+    CHECK(triangles_meet(base, moved(base, {1, 0, 0})));  // corner on corner
     CHECK_FALSE(triangles_meet(base, moved(base, {1.0000000001, 0, 0})));
-    CHECK(triangles_meet(base, {Vec3(0.25, 0.25, 0), Vec3(0, 0, 1), Vec3(1, 1, 1)}));   // a corner on the face
-    CHECK(triangles_meet(base, {Vec3(0.5, -1, 0), Vec3(0.5, 3, 0), Vec3(0.5, 0, 1)}));  // an edge in the plane
-    CHECK(triangles_meet(base, {Vec3(0.1, 0.1, 0), Vec3(0.2, 0.1, 0), Vec3(0.1, 0.2, 0)}));   // one within the other
+    CHECK(triangles_meet(base, {Vec3(0.25, 0.25, 0), Vec3(0, 0, 1), Vec3(1, 1, 1)}));        // a corner on the face
+    CHECK(triangles_meet(base, {Vec3(0.5, -1, 0), Vec3(0.5, 3, 0), Vec3(0.5, 0, 1)}));       // an edge in the plane
+    CHECK(triangles_meet(base, {Vec3(0.1, 0.1, 0), Vec3(0.2, 0.1, 0), Vec3(0.1, 0.2, 0)}));  // one within the other
     CHECK(is_degenerate({Vec3(0, 0, 0), Vec3(1, 2, 3), Vec3(-2, -4, -6)}));
     CHECK(is_degenerate({Vec3(1, 1, 1), Vec3(1, 1, 1), Vec3(2, 0, 5)}));
     CHECK_FALSE(is_degenerate({Vec3(0, 0, 0), Vec3(1, 2, 3), Vec3(-2, -4, -6 + 1e-15)}));

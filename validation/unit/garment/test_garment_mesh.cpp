@@ -9,8 +9,8 @@
 
 #include "host/garment/assemble.hpp"
 #include "host/garment/outline.hpp"
-#include "host/mesh/panel_mesh.hpp"
 #include "host/garment/sheet.hpp"
+#include "host/mesh/panel_mesh.hpp"
 #include "host/model/transfer.hpp"
 #include "io/errors.hpp"
 

@@ -18,7 +18,8 @@ namespace {
 
 bool is_arm(const std::string& part) { return part == "left_arm" || part == "right_arm"; }
 
-std::vector<Face> faces_where(const TriangleMesh& mesh, bool arms) {
+std::vector<Face> faces_where(const TriangleMesh& mesh, bool arms)
+{
     std::vector<Face> faces;
     for (const MeshPart& part : mesh.parts)
         if (is_arm(part.name) == arms)
@@ -27,15 +28,16 @@ std::vector<Face> faces_where(const TriangleMesh& mesh, bool arms) {
     return faces;
 }
 
-double volume(const TriangleMesh& mesh) {
+double volume(const TriangleMesh& mesh)
+{
     double sum = 0;
-    for (const Face& f : mesh.faces)
-        sum += mesh.vertices[f[0]].dot(mesh.vertices[f[1]].cross(mesh.vertices[f[2]])) / 6;
+    for (const Face& f : mesh.faces) sum += mesh.vertices[f[0]].dot(mesh.vertices[f[1]].cross(mesh.vertices[f[2]])) / 6;
     return sum;
 }
 
 /// Points where the faces' edges cross the plane normal . p = height.
-std::vector<Vec3> slice(const TriangleMesh& mesh, const std::vector<Face>& faces, const Vec3& normal, double height) {
+std::vector<Vec3> slice(const TriangleMesh& mesh, const std::vector<Face>& faces, const Vec3& normal, double height)
+{
     std::vector<Vec3> points;
     for (const Face& face : faces)
         for (int corner = 0; corner < 3; ++corner) {
@@ -47,7 +49,8 @@ std::vector<Vec3> slice(const TriangleMesh& mesh, const std::vector<Face>& faces
 }
 
 /// Perimeter of the convex hull, as the mean width over all directions (Cauchy's formula) times pi.
-double tape_girth(const std::vector<Vec3>& points, const Vec3& axis_u, const Vec3& axis_v) {
+double tape_girth(const std::vector<Vec3>& points, const Vec3& axis_u, const Vec3& axis_v)
+{
     const int direction_count = 90;
     double widths = 0;
     for (int k = 0; k < direction_count; ++k) {
@@ -63,7 +66,8 @@ double tape_girth(const std::vector<Vec3>& points, const Vec3& axis_u, const Vec
     return M_PI * widths / direction_count;
 }
 
-double smallest_angle(const TriangleMesh& mesh) {
+double smallest_angle(const TriangleMesh& mesh)
+{
     double largest_cosine = -1;
     for (const Face& f : mesh.faces)
         for (int k = 0; k < 3; ++k) {
@@ -75,7 +79,8 @@ double smallest_angle(const TriangleMesh& mesh) {
 }
 
 /// Every directed edge occurs once, and so does its opposite.
-bool is_closed_manifold(const TriangleMesh& mesh) {
+bool is_closed_manifold(const TriangleMesh& mesh)
+{
     std::set<std::pair<int, int>> edges;
     for (const Face& f : mesh.faces)
         for (int k = 0; k < 3; ++k)
@@ -86,7 +91,8 @@ bool is_closed_manifold(const TriangleMesh& mesh) {
 }
 
 /// Parity of the faces above the point.
-bool is_inside(const TriangleMesh& mesh, const Vec3& point) {
+bool is_inside(const TriangleMesh& mesh, const Vec3& point)
+{
     int crossings = 0;
     for (const Face& f : mesh.faces) {
         const Vec3 &a = mesh.vertices[f[0]], &b = mesh.vertices[f[1]], &c = mesh.vertices[f[2]];
@@ -103,13 +109,15 @@ bool is_inside(const TriangleMesh& mesh, const Vec3& point) {
     return crossings % 2 == 1;
 }
 
-double distance_to_vertices(const TriangleMesh& mesh, const Vec3& point) {
+double distance_to_vertices(const TriangleMesh& mesh, const Vec3& point)
+{
     double nearest = 1e9;
     for (const Vec3& vertex : mesh.vertices) nearest = std::min(nearest, (vertex - point).squaredNorm());
     return std::sqrt(nearest);
 }
 
-std::vector<Vec2> sample_edge(const PatternPanel& panel, int edge, int chord_count = 40) {
+std::vector<Vec2> sample_edge(const PatternPanel& panel, int edge, int chord_count = 40)
+{
     const PatternEdge& e = panel.edges[edge];
     const Vec2 a = panel.vertices[e.start], b = panel.vertices[e.end];
     std::vector<Vec2> points;
@@ -124,13 +132,15 @@ std::vector<Vec2> sample_edge(const PatternPanel& panel, int edge, int chord_cou
     return points;
 }
 
-double length(const std::vector<Vec2>& line) {
+double length(const std::vector<Vec2>& line)
+{
     double sum = 0;
     for (std::size_t k = 1; k < line.size(); ++k) sum += (line[k] - line[k - 1]).norm();
     return sum;
 }
 
-std::vector<Vec2> outline(const PatternPanel& panel) {
+std::vector<Vec2> outline(const PatternPanel& panel)
+{
     std::vector<Vec2> points;
     for (int edge = 0; edge < int(panel.edges.size()); ++edge) {
         const std::vector<Vec2> line = sample_edge(panel, edge);
@@ -139,7 +149,8 @@ std::vector<Vec2> outline(const PatternPanel& panel) {
     return points;
 }
 
-double signed_area(const std::vector<Vec2>& polygon) {
+double signed_area(const std::vector<Vec2>& polygon)
+{
     double twice = 0;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const Vec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
@@ -148,7 +159,8 @@ double signed_area(const std::vector<Vec2>& polygon) {
     return twice / 2;
 }
 
-bool contains(const std::vector<Vec2>& polygon, const Vec2& point) {
+bool contains(const std::vector<Vec2>& polygon, const Vec2& point)
+{
     bool inside = false;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const Vec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
@@ -158,7 +170,8 @@ bool contains(const std::vector<Vec2>& polygon, const Vec2& point) {
     return inside;
 }
 
-Vec3 place(const PatternPanel& panel, const Vec2& point) {
+Vec3 place(const PatternPanel& panel, const Vec2& point)
+{
     Vec3 rolled(point.x(), point.y(), 0);
     if (panel.wrap) {
         const double radius = panel.wrap->radius, angle = (point.x() - panel.wrap->x0) / radius;
@@ -168,7 +181,8 @@ Vec3 place(const PatternPanel& panel, const Vec2& point) {
     return panel.rotation * rolled + panel.translation;
 }
 
-std::vector<Vec3> start_points(const PatternPanel& panel, double spacing) {
+std::vector<Vec3> start_points(const PatternPanel& panel, double spacing)
+{
     std::vector<Vec3> points;
     const std::vector<Vec2> polygon = outline(panel);
     for (std::size_t k = 0; k < polygon.size(); k += 4) points.push_back(place(panel, polygon[k]));
@@ -180,16 +194,17 @@ std::vector<Vec3> start_points(const PatternPanel& panel, double spacing) {
 
 }  // namespace
 
-TEST_CASE("the mannequin is a sound mesh for every size and arm angle") {
-    const auto [size, angle] = GENERATE(table<std::string, double>(
-        {{"M", 45}, {"M", 0}, {"L", 25}, {"S", 65}, {"L", 80}}));
+TEST_CASE("the mannequin is a sound mesh for every size and arm angle")
+{
+    const auto [size, angle] =
+        GENERATE(table<std::string, double>({{"M", 45}, {"M", 0}, {"L", 25}, {"S", 65}, {"L", 80}}));
     CAPTURE(size, angle);
     MannequinMeasures measures = mannequin_size(size);
     measures.arm_angle = angle;
     const TriangleMesh mesh = make_mannequin(measures);
     CHECK(mesh.faces.size() >= 10000);
     CHECK(is_closed_manifold(mesh));
-    CHECK(int(mesh.vertices.size()) - int(mesh.faces.size()) / 2 == 2);   // Genus 0: no arm touches the hip.
+    CHECK(int(mesh.vertices.size()) - int(mesh.faces.size()) / 2 == 2);  // Genus 0: no arm touches the hip.
     CHECK(volume(mesh) == Approx(0.065).margin(0.025));
     CHECK(smallest_angle(mesh) > 12);
 
@@ -205,7 +220,8 @@ TEST_CASE("the mannequin is a sound mesh for every size and arm angle") {
     CHECK(next_face == int(mesh.faces.size()));
 }
 
-TEST_CASE("the mannequin has the measures that were asked for") {
+TEST_CASE("the mannequin has the measures that were asked for")
+{
     const std::string size = GENERATE("S", "M", "L", "M, altered");
     CAPTURE(size);
     MannequinMeasures measures = mannequin_size(size.substr(0, 1));
@@ -252,7 +268,8 @@ TEST_CASE("the mannequin has the measures that were asked for") {
     CHECK(wrist == Approx(measures.arm_length).epsilon(0.02));
 }
 
-TEST_CASE("the mannequin faces -y with its left at +x") {
+TEST_CASE("the mannequin faces -y with its left at +x")
+{
     const MannequinLandmarks at = mannequin_landmarks(mannequin_size("M"));
     const TriangleMesh mesh = make_mannequin(mannequin_size("M"));
     double toes = 0, heel = 0;
@@ -267,7 +284,8 @@ TEST_CASE("the mannequin faces -y with its left at +x") {
     CHECK(mesh.vertices[mesh.faces[mesh.parts[3].first_face][0]].x() > 0);
 }
 
-TEST_CASE("measures beyond the mannequin's range and unknown names are refused") {
+TEST_CASE("measures beyond the mannequin's range and unknown names are refused")
+{
     MannequinMeasures measures;
     measures.bust = 92;
     CHECK_THROWS_AS(make_mannequin(measures), InputError);
@@ -279,7 +297,8 @@ TEST_CASE("measures beyond the mannequin's range and unknown names are refused")
     CHECK_THROWS_AS(builtin_pattern("vest", "m"), InputError);
 }
 
-TEST_CASE("built-in patterns have closed counter-clockwise outlines and seams of equal length") {
+TEST_CASE("built-in patterns have closed counter-clockwise outlines and seams of equal length")
+{
     const std::string name = GENERATE(from_range(builtin_pattern_names())), size = GENERATE("S", "M", "L");
     CAPTURE(name, size);
     const Pattern pattern = builtin_pattern(name, size);
@@ -307,7 +326,8 @@ TEST_CASE("built-in patterns have closed counter-clockwise outlines and seams of
     }
 }
 
-TEST_CASE("built-in patterns start outside the mannequin, facing away from it, with seams that do not cross it") {
+TEST_CASE("built-in patterns start outside the mannequin, facing away from it, with seams that do not cross it")
+{
     const std::string name = GENERATE(from_range(builtin_pattern_names())), size = GENERATE("S", "M", "L");
     CAPTURE(name, size);
     const Pattern pattern = builtin_pattern(name, size);
@@ -342,7 +362,8 @@ TEST_CASE("built-in patterns start outside the mannequin, facing away from it, w
     CHECK(widest < 0.40);
 }
 
-TEST_CASE("the t-shirt's sleeves roll around the arms with their underarm edges below") {
+TEST_CASE("the t-shirt's sleeves roll around the arms with their underarm edges below")
+{
     const MannequinLandmarks at = mannequin_landmarks(mannequin_size("M"));
     const Pattern pattern = builtin_pattern("tshirt", "M");
     for (int hand = 0; hand < 2; ++hand) {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/body_mesh.hpp"
 #include "io/errors.hpp"
+#include "io/mesh/body_mesh.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/pattern/pattern_json.hpp"
 #include "io/scene/scene.hpp"
@@ -43,7 +43,7 @@ std::string many(const std::string& text, int count)
 
 struct BadText {
     std::string text;
-    std::vector<std::string> message;   ///< Each must occur in the error's message.
+    std::vector<std::string> message;  ///< Each must occur in the error's message.
 };
 
 void check_scenes(const std::vector<BadText>& scenes)
@@ -166,14 +166,18 @@ TEST_CASE("scenes that do not fit together are refused")
 
 TEST_CASE("stress curves that do not rise from the origin are refused at their point")
 {
-    const auto with = [](const std::string& line) { return "[[sheet]]\n[fabric.f]\nbase = \"cotton\"\n" + line + "\n"; };
+    const auto with = [](const std::string& line) {
+        return "[[sheet]]\n[fabric.f]\nbase = \"cotton\"\n" + line + "\n";
+    };
     check_scenes({
         {with("shear_curve = 3"), {":4:", "fabric.f.shear_curve", "points"}},
         {with("shear_curve = []"), {":4:", "fabric.f.shear_curve", "1 to 8 points"}},
         {with("shear_curve = [[0, 0]]"), {":4:", "fabric.f.shear_curve", "1 to 8 points"}},
         {with("shear_curve = [[0.1, 2],\n[0.2]]"), {":5:", "fabric.f.shear_curve", "two numbers"}},
-        {with("shear_curve = [[0.1, 2],\n[0.1, 3]]"), {":5:", "fabric.f.shear_curve", "above those of the point before"}},
-        {with("shear_curve = [[0.1, 2],\n[0.2, 1]]"), {":5:", "fabric.f.shear_curve", "above those of the point before"}},
+        {with("shear_curve = [[0.1, 2],\n[0.1, 3]]"),
+         {":5:", "fabric.f.shear_curve", "above those of the point before"}},
+        {with("shear_curve = [[0.1, 2],\n[0.2, 1]]"),
+         {":5:", "fabric.f.shear_curve", "above those of the point before"}},
         {with("shear_curve = [[0.1, nan]]"), {":4:", "fabric.f.shear_curve", "above those of the point before"}},
         {with("shear_curve = [[1.6, 2]]"), {":4:", "fabric.f.shear_curve", "1.5 rad"}},
         {with("stretch_warp_curve = [[0.1, 2], [0.5, 2.1]]"), {":4:", "fabric.f.stretch_warp_curve", "1 + strain"}},

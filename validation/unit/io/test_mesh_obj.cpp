@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "io/mesh/body_mesh.hpp"
 #include "io/errors.hpp"
+#include "io/mesh/body_mesh.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "validation/unit/scratch_file.hpp"
 

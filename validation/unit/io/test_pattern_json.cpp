@@ -55,10 +55,7 @@ PatternEdge first_edge(const std::string& curvature, const std::string& coords =
     return read_variant(variant).panels.at(0).edges.at(0);
 }
 
-bool close(const Vec2& a, double x, double y)
-{
-    return (a - Vec2(x, y)).norm() < 1e-12;
-}
+bool close(const Vec2& a, double x, double y) { return (a - Vec2(x, y)).norm() < 1e-12; }
 
 }  // namespace
 

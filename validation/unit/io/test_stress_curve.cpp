@@ -25,10 +25,14 @@ constexpr PatchCase isotropic_cases[] = {
     {"uniaxial 0.99, free sides", {0.99, 0, 0, 1.0029805581366}, {-0.98505, 0, 0, 0}, 0.004950125},
     {"uniaxial 1.05, clamped sides", {1.05, 0, 0, 1}, {5.91346153846154, 0, 0, 1.68956043956044}, 0.144316620879121},
     {"equibiaxial 1.1", {1.1, 0, 0, 1.1}, {16.5, 0, 0, 16.5}, 1.575},
-    {"simple shear 0.2", {1, 0.2, 0, 1}, {2.1978021978022, 8.13186813186813, 7.69230769230769, 2.1978021978022},
+    {"simple shear 0.2",
+     {1, 0.2, 0, 1},
+     {2.1978021978022, 8.13186813186813, 7.69230769230769, 2.1978021978022},
      0.791208791208791},
-    {"trellis shear 0.5", {0.968912421710645, 0.247403959254523, 0.247403959254523, 0.968912421710645},
-     {4.56199140070815, 17.8662061399588, 17.8662061399588, 4.56199140070815}, 4.42017013588327},
+    {"trellis shear 0.5",
+     {0.968912421710645, 0.247403959254523, 0.247403959254523, 0.968912421710645},
+     {4.56199140070815, 17.8662061399588, 17.8662061399588, 4.56199140070815},
+     4.42017013588327},
 };
 
 // Weft 50 e + 800 e^2, warp 100 e + 2000 e^2 + 5000 e^3, shear 5 g + 300 g^3.
@@ -37,8 +41,10 @@ constexpr PatchCase cubic_cases[] = {
     {"warp 1.05", {1, 0, 0, 1.05}, {0, 0, 0, 11.6037407226562}, 0.229692548624674},
     {"biaxial 1.05", {1.05, 0, 0, 1.05}, {4.8969375, 0, 0, 11.6037407226562}, 0.331252965291341},
     {"simple shear 0.2", {1, 0.2, 0, 1}, {0.68, 3.968, 3.4, 2.84}, 0.245533333333333},
-    {"bias 1.05", {1.00119047619048, 0.0488095238095238, 0.0488095238095238, 1.00119047619048},
-     {0.161328650146218, 0.781852548153746, 0.775702698945938, 0.287475557067358}, 0.0311621021989113},
+    {"bias 1.05",
+     {1.00119047619048, 0.0488095238095238, 0.0488095238095238, 1.00119047619048},
+     {0.161328650146218, 0.781852548153746, 0.775702698945938, 0.287475557067358},
+     0.0311621021989113},
 };
 
 constexpr int side = 5;
@@ -51,7 +57,8 @@ Cloth irregular_square()
     std::mt19937 random(11);
     std::uniform_real_distribution<double> uniform(-0.3 * spacing, 0.3 * spacing);
     for (int r = 1; r + 1 < side; ++r)
-        for (int c = 1; c + 1 < side; ++c) cloth.panel_coordinates[r * side + c] += Vec2(uniform(random), uniform(random));
+        for (int c = 1; c + 1 < side; ++c)
+            cloth.panel_coordinates[r * side + c] += Vec2(uniform(random), uniform(random));
     return cloth;
 }
 
@@ -85,7 +92,7 @@ void check_patch(const PatchCase& patch, const Fabric& fabric, const char* term_
     const int vs = state.size.vertex_stride;
     const double scale = std::hypot(patch.P[0], patch.P[3]) + std::abs(patch.P[1]);
     for (int c = 0; c < 2; ++c) {
-        double moment_x = 0, moment_y = 0;   // sum of f_c X over vertices is minus the area times P, by virtual work
+        double moment_x = 0, moment_y = 0;  // sum of f_c X over vertices is minus the area times P, by virtual work
         const Cloth cloth = irregular_square();
         for (int v = 0; v < side * side; ++v) {
             moment_x -= force[c * vs + v] * cloth.panel_coordinates[v].x();
@@ -133,8 +140,8 @@ TEST_CASE("an irregular patch shows the exact forces and energy of cubic stress 
 TEST_CASE("curves pass through their points, rise everywhere, and their energy is the integral of stress", "[curves]")
 {
     const std::vector<Vec2> points{{0.02, 5}, {0.05, 30}, {0.06, 31}, {0.12, 490}};
-    for (const StressCurve& curve : {piecewise_curve(points), smooth_curve(points),
-                                     limited_curve(smooth_curve(points), 0.08, 20)}) {
+    for (const StressCurve& curve :
+         {piecewise_curve(points), smooth_curve(points), limited_curve(smooth_curve(points), 0.08, 20)}) {
         for (const Vec2& p : points)
             if (p.x() < 0.08) CHECK(curve_stress(curve, p.x()) == Approx(p.y()).epsilon(1e-12));
         CHECK(smallest_slope(curve) > 0);

@@ -6,12 +6,12 @@
 #include <limits>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
+#include "io/errors.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/describe.hpp"
-#include "io/errors.hpp"
 #include "io/run/progress.hpp"
 #include "io/run/summary.hpp"
 #include "io/run/trajectory.hpp"
@@ -39,14 +39,14 @@ std::string text_of(const std::string& path)
 TrajectoryLayout square(PositionGrid grid)
 {
     TrajectoryLayout layout;
-    layout.point_count = 5;   // The last point belongs to no triangle.
+    layout.point_count = 5;  // The last point belongs to no triangle.
     layout.triangles = {{0, 1, 2}, {1, 3, 2}};
     layout.panel_coordinates = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 2}};
     layout.panel = {0, 0, 1, 1, 1};
     layout.rest_edge_lengths = {{1, 1.5, 1}, {1, 1, 1.5}};
     layout.seam_pairs = {{0, 3}};
     layout.panel_names = {"front", "back"};
-    layout.scene_text = "[sheet]\n" + std::string(70000, '#');   // Longer than an HDF5 object header.
+    layout.scene_text = "[sheet]\n" + std::string(70000, '#');  // Longer than an HDF5 object header.
     layout.version = "1.2.3";
     layout.grid = grid;
     return layout;
@@ -64,7 +64,8 @@ FrameScalars scalars(int frame) { return {0.04 * frame, 1.0 * frame, 2.0, 0.5, 0
 
 void write_frames(TrajectoryWriter& writer, int end)
 {
-    while (writer.frame_count() < end) writer.write_frame(positions(writer.frame_count()), scalars(writer.frame_count()));
+    while (writer.frame_count() < end)
+        writer.write_frame(positions(writer.frame_count()), scalars(writer.frame_count()));
 }
 
 void check_frames(const std::string& path, int count, double tolerance)
@@ -114,7 +115,7 @@ TEST_CASE("a run file has the layout that VTK and h5py users rely on")
     write_frames(writer, 3);
     writer.finish();
 
-    CHECK(text_of(path).at(8) == 0);   // Version of the superblock.
+    CHECK(text_of(path).at(8) == 0);  // Version of the superblock.
     const Hdf5File file(path, Hdf5Access::read);
     CHECK(file.integer("/VTKHDF/Steps", "NSteps") == 3);
     CHECK(file.shape("/VTKHDF/Points") == std::vector<hsize_t>{15, 3});
@@ -167,7 +168,7 @@ TEST_CASE("every frame is readable as soon as it is written")
     const Folder folder;
     const std::string path = folder.file("run.h5"), copy = folder.file("killed.h5");
     TrajectoryWriter writer = TrajectoryWriter::create(path, square(PositionGrid::fine_8um));
-    for (int frame = 0; frame < 140; ++frame) {   // The index splits at 64 and 122 frames.
+    for (int frame = 0; frame < 140; ++frame) {  // The index splits at 64 and 122 frames.
         write_frames(writer, frame + 1);
         if (frame % 7 > 0 && frame != 64) continue;
         std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing);
@@ -225,9 +226,11 @@ TEST_CASE("the index for ParaView names every frame with its time and rows")
 TEST_CASE("a summary holds every promised key, and null for what is not known")
 {
     const nlohmann::json json = nlohmann::json::parse(summary_json({}));
-    for (const char* key : {"status", "scene", "version", "threads", "precision", "vertices", "triangles", "steps", "frames",
-                            "simulated_s", "wall_s", "phases", "kernels", "active", "skipped", "peak_memory_bytes",
-                            "residual", "energy", "stretch", "body", "self", "seams", "panels", "warnings", "message"})
+    for (const char* key :
+         {"status",   "scene",       "version", "threads", "precision", "vertices", "triangles", "steps",
+          "frames",   "simulated_s", "wall_s",  "phases",  "kernels",   "active",   "skipped",   "peak_memory_bytes",
+          "residual", "energy",      "stretch", "body",    "self",      "seams",    "panels",    "warnings",
+          "message"})
         CHECK(json.contains(key));
     for (const char* key : {"membrane_J", "bending_J", "gravity_J", "contact_J", "kinetic_J"})
         CHECK(json["energy"].contains(key));
@@ -239,7 +242,7 @@ TEST_CASE("a summary holds every promised key, and null for what is not known")
     summary.self_intersections = 0;
     summary.residual = 0.25;
     summary.kernels = {{"membrane", 3, 0.5, 300, 9000}};
-    summary.panels = {{"fr\xf6nt", 0.01, -0.02}};   // Latin-1, as in an old pattern file.
+    summary.panels = {{"fr\xf6nt", 0.01, -0.02}};  // Latin-1, as in an old pattern file.
     const Folder folder;
     write_summary(folder.file("summary.json"), summary);
     const nlohmann::json read = nlohmann::json::parse(text_of(folder.file("summary.json")));
@@ -305,5 +308,5 @@ TEST_CASE("the estimate of the remaining time follows the simulated time or the 
         decaying.add(2.0 * k, {"draping", 0.1 * k, k, std::pow(10, -0.1 * k), 0});
     }
     CHECK(fixed.seconds_left() == Approx(8 * 20.0));
-    CHECK(decaying.seconds_left() == Approx(40));   // From 1e-2 to 1e-4 at a decade in 20 s.
+    CHECK(decaying.seconds_left() == Approx(40));  // From 1e-2 to 1e-4 at a decade in 20 s.
 }

@@ -35,9 +35,19 @@ std::string printed(bool json, std::vector<std::string> options)
 
 std::vector<std::string> expected_names()
 {
-    std::vector<std::string> names = {"body_query", "clear_forces", "gather_forces", "clear_stiffness", "assemble",
-                                      "matrix_product", "precondition/block_jacobi", "precondition/multigrid", "dot",
-                                      "axpy", "settle_friction", "settle_hysteresis", "newton_iteration"};
+    std::vector<std::string> names = {"body_query",
+                                      "clear_forces",
+                                      "gather_forces",
+                                      "clear_stiffness",
+                                      "assemble",
+                                      "matrix_product",
+                                      "precondition/block_jacobi",
+                                      "precondition/multigrid",
+                                      "dot",
+                                      "axpy",
+                                      "settle_friction",
+                                      "settle_hysteresis",
+                                      "newton_iteration"};
     for (const Term& term : all_terms())
         for (const char* part : {"/value", "/force", "/stiffness"}) names.push_back(std::string(term.name) + part);
     return names;
@@ -111,10 +121,17 @@ TEST_CASE("the kernel benchmark's table has one row for each kernel that the fil
 
 TEST_CASE("bad options of the kernel benchmark are input errors", "[bench]")
 {
-    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-             {"--vertices", "many"}, {"--vertices", "3"}, {"--vertices"}, {"--threads", "-1"}, {"--min-time", "0"},
-             {"--min-time", "nan"}, {"--filter", "("}, {"--vertexes", "100"}, {"100"},
-             {"--vertices", "100", "--filter", "no_such_kernel"}}) {
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"--vertices", "many"},
+                                               {"--vertices", "3"},
+                                               {"--vertices"},
+                                               {"--threads", "-1"},
+                                               {"--min-time", "0"},
+                                               {"--min-time", "nan"},
+                                               {"--filter", "("},
+                                               {"--vertexes", "100"},
+                                               {"100"},
+                                               {"--vertices", "100", "--filter", "no_such_kernel"}}) {
         INFO(options.front() << ' ' << options.back());
         CHECK_THROWS_AS(run_bench("kernels", true, options), InputError);
     }
@@ -136,8 +153,9 @@ TEST_CASE("the bytes of a kernel follow from its field list", "[bench]")
     CHECK(2 * stitches < vertices);
     CHECK(term_bytes(term_named("seam"), cloth.state, TermPart::value) <= stitches * (8 + 2 * 24));
     CHECK(term_bytes(term_named("seam"), cloth.state, TermPart::value) > stitches * (8 + 24));
-    CHECK(clear_forces_bytes(cloth.state) ==
-          24 * vertices + 72 * faces + 96 * std::size_t(size.hinge_count + size.pair_count) + 48 * (stitches + size.spring_count));
+    CHECK(clear_forces_bytes(cloth.state) == 24 * vertices + 72 * faces +
+                                                 96 * std::size_t(size.hinge_count + size.pair_count) +
+                                                 48 * (stitches + size.spring_count));
 }
 
 TEST_CASE("the cloth of the kernel benchmark gives every term and stage work to do", "[bench]")
@@ -169,9 +187,13 @@ TEST_CASE("growth exponents are the slopes of power laws, by least squares", "[b
 
 TEST_CASE("bad options of the scaling and skip benchmarks are input errors", "[bench]")
 {
-    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-             {"--scene", "hangin"}, {"--max-vertices", "10"}, {"--min-vertices", "5000", "--max-vertices", "1000"},
-             {"--threads", "0"}, {"--max-seconds", "0"}, {"--vertices", "100"}}) {
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"--scene", "hangin"},
+                                               {"--max-vertices", "10"},
+                                               {"--min-vertices", "5000", "--max-vertices", "1000"},
+                                               {"--threads", "0"},
+                                               {"--max-seconds", "0"},
+                                               {"--vertices", "100"}}) {
         INFO(options.front() << ' ' << options.back());
         CHECK_THROWS_AS(run_bench("scaling", true, options), InputError);
     }

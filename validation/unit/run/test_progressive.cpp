@@ -24,7 +24,8 @@ std::array<double, 2> stretch_range(const Cloth& cloth, const std::vector<Vec3>&
     for (const Face& face : cloth.faces)
         for (int k = 0; k < 3; ++k) {
             const int a = face[k], b = face[(k + 1) % 3];
-            const double stretch = (positions[a] - positions[b]).norm() / (cloth.panel_coordinates[a] - cloth.panel_coordinates[b]).norm();
+            const double stretch =
+                (positions[a] - positions[b]).norm() / (cloth.panel_coordinates[a] - cloth.panel_coordinates[b]).norm();
             range = {std::min(range[0], stretch), std::max(range[1], stretch)};
         }
     return range;
@@ -36,7 +37,8 @@ TEST_CASE("a shape that is carried to a nested mesh stretches no edge more or le
 {
     const Cloth coarse = sheet_of(9), fine = sheet_of(17);
     std::vector<Vec3> wave;
-    for (const Vec2& u : coarse.panel_coordinates) wave.push_back(Vec3(u.x(), u.y(), 1 + 0.2 * std::sin(6 * u.x()) * u.y()));
+    for (const Vec2& u : coarse.panel_coordinates)
+        wave.push_back(Vec3(u.x(), u.y(), 1 + 0.2 * std::sin(6 * u.x()) * u.y()));
     for (int v : coarse.pinned) wave[std::size_t(v)] = coarse.positions[std::size_t(v)];
     const std::vector<Vec3> carried = carry_over(fine, make_transfer(coarse, fine), wave);
     const auto before = stretch_range(coarse, wave), after = stretch_range(fine, carried);

@@ -34,7 +34,8 @@ PictureCloth upright_sheet(int cells)
 
 TriangleMesh tetrahedron()
 {
-    return {{{0.2, 0.5, 0}, {0.8, 0.5, 0}, {0.5, 1, 0}, {0.5, 0.7, 0.6}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {}};
+    return {
+        {{0.2, 0.5, 0}, {0.8, 0.5, 0}, {0.5, 1, 0}, {0.5, 0.7, 0.6}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {}};
 }
 
 PictureOptions small_front_view()
@@ -189,8 +190,10 @@ TEST_CASE("marked lines know their distance within reach, and hems are the edges
     for (int face = 0; face < int(mesh.faces.size()); ++face) {
         const Vec3f point = mesh.point(face, 0.3f, 0.3f);
         const float expected = std::min({point.x(), 1 - point.x(), point.z(), 1 - point.z()});
-        if (expected < 0.25f) CHECK(hems.distance(face, point) == Approx(expected).margin(1e-6));
-        else CHECK(hems.distance(face, point) >= 0.25f);
+        if (expected < 0.25f)
+            CHECK(hems.distance(face, point) == Approx(expected).margin(1e-6));
+        else
+            CHECK(hems.distance(face, point) >= 0.25f);
     }
 }
 

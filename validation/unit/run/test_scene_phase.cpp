@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include "host/scene/scene_phase.hpp"
 #include "io/scene/scene.hpp"
@@ -25,10 +25,11 @@ TEST_CASE("the automatic integrator goes straight to rest only where the way the
     CHECK(chosen("builtin:tshirt", {}) == "bdf2");
     CHECK(chosen("builtin:sphere", {"solver.until=equilibrium"}) == "bdf2");
     CHECK(chosen("builtin:sphere", {"solver.until=equilibrium", "bending.hysteresis=true"}) == "implicit_euler");
-    CHECK(chosen("builtin:stress_raise_arms", {"solver.until=equilibrium"}) == "implicit_euler");   // the body moves
+    CHECK(chosen("builtin:stress_raise_arms", {"solver.until=equilibrium"}) == "implicit_euler");  // the body moves
 }
 
-TEST_CASE("the automatic integrator of a motion is bdf2, among bodies implicit Euler, and a named one is taken as named")
+TEST_CASE(
+    "the automatic integrator of a motion is bdf2, among bodies implicit Euler, and a named one is taken as named")
 {
     CHECK(chosen("builtin:hanging", {"solver.until=0.5"}) == "bdf2");
     CHECK(chosen("builtin:sphere", {}) == "implicit_euler");
@@ -44,7 +45,8 @@ TEST_CASE("cloth does not press on its own neighbours where a triangle is narrow
     for (int j = 0; j < 6; ++j)
         for (const double x : columns) mesh += fmt::format("v {} {} 0\nvt {} {}\n", x, 0.02 * j, x, 0.02 * j);
     for (int a = 1; a < 30; ++a)
-        if (a % 6 != 0) mesh += fmt::format("f {0}/{0} {1}/{1} {2}/{2}\nf {0}/{0} {2}/{2} {3}/{3}\n", a, a + 1, a + 7, a + 6);
+        if (a % 6 != 0)
+            mesh += fmt::format("f {0}/{0} {1}/{1} {2}/{2}\nf {0}/{0} {2}/{2} {3}/{3}\n", a, a + 1, a + 7, a + 6);
     const ScratchFolder folder;
     folder.write("slivers.obj", mesh);
     const std::string file = folder.write("scene.toml", "[[sheet]]\nshape = \"mesh\"\nmesh = \"slivers.obj\"\n");

@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/run/run_profile.hpp"
 #include "host/parallel/launch.hpp"
 #include "host/parallel/profile.hpp"
+#include "host/run/run_profile.hpp"
 #include "io/run/hdf5_file.hpp"
 #include "validation/unit/scratch_file.hpp"
 

@@ -67,7 +67,8 @@ struct Pile {
 Cloth stack(int count, double distance)
 {
     Cloth cloth = grid_cloth(side, side, spacing);
-    for (int k = 1; k < count; ++k) add_panel(cloth, grid_cloth(side, side, spacing), Vec3(0.003 * k, 0.005 * k, distance * k));
+    for (int k = 1; k < count; ++k)
+        add_panel(cloth, grid_cloth(side, side, spacing), Vec3(0.003 * k, 0.005 * k, distance * k));
     return cloth;
 }
 
@@ -193,7 +194,7 @@ TEST_CASE("a way that meets nothing is left as it is", "[cloth_contact]")
             const std::vector<real> wanted = pile.shift(way);
             std::vector<real> move = wanted;
             pile.contact.clear_way(pile.state, move, uniform);
-            CHECK((move == wanted));   // the vectors are too long to print
+            CHECK((move == wanted));  // the vectors are too long to print
         }
     CHECK(pile.contact.counts().shortened == 0);
 }
@@ -203,7 +204,7 @@ TEST_CASE("only what would hit something is held back", "[cloth_contact]")
     Cloth cloth = stack(2, 2 * gap);
     Pile pile(cloth);
     std::vector<real> move = pile.shift(Vec3(0, 0, -5 * gap));
-    const int lifted = 2 * side * side - 1, vs = pile.stride();   // a corner that goes the other way
+    const int lifted = 2 * side * side - 1, vs = pile.stride();  // a corner that goes the other way
     move[2 * vs + lifted] = 5 * gap;
     const std::vector<real> wanted = move;
     pile.contact.clear_way(pile.state, move, false);
@@ -253,7 +254,7 @@ TEST_CASE("passing through is noticed from where it began", "[cloth_contact]")
 {
     Pile pile(stack(2, 2 * gap));
     const std::vector<real> from = pile.state.pos;
-    for (double way : {-1.0, -3.0, -50.0, 50.0}) {   // near, through, far through, away; in gaps
+    for (double way : {-1.0, -3.0, -50.0, 50.0}) {  // near, through, far through, away; in gaps
         pile.state.pos = from;
         pile.add(pile.shift(Vec3(0, 0, way * gap)));
         const std::vector<real> at = pile.state.pos;
@@ -297,12 +298,14 @@ TEST_CASE("memory that is saved and restored gives the same bristles in another 
     second.contact.update(second.state);
     const PairMemory expected = in_state(first.state);
     double longest = 0;
-    for (const auto& [pair, values] : expected) longest = std::max(longest, std::hypot(values[7], values[8], values[9]));
+    for (const auto& [pair, values] : expected)
+        longest = std::max(longest, std::hypot(values[7], values[8], values[9]));
     CHECK(longest == Approx(std::hypot(5e-5, 3e-5)));
     CHECK(in_state(second.state) == expected);
 }
 
-TEST_CASE("cloth that starts tangled is noticed, comes apart when pulled, and then is as other cloth", "[cloth_contact]")
+TEST_CASE("cloth that starts tangled is noticed, comes apart when pulled, and then is as other cloth",
+          "[cloth_contact]")
 {
     Cloth cloth = grid_cloth(side, side, spacing);
     add_panel(cloth, grid_cloth(side, side, spacing), Vec3(0.003, 0.005, 0));

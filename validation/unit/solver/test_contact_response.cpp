@@ -45,11 +45,18 @@ struct Landing {
         options.params.plate.scale = 1;
         options.params.gravity.acceleration_x = -g * std::sin(lean);
         options.params.gravity.acceleration_z = -g * std::cos(lean);
-        phase = std::make_unique<Phase>(model, options, query.get(), profile, model.cloth.positions, std::vector<Vec3>{});
+        phase =
+            std::make_unique<Phase>(model, options, query.get(), profile, model.cloth.positions, std::vector<Vec3>{});
     }
 
-    double lowest() const { return height([](double a, double b) { return a < b; }); }
-    double highest() const { return height([](double a, double b) { return a > b; }); }
+    double lowest() const
+    {
+        return height([](double a, double b) { return a < b; });
+    }
+    double highest() const
+    {
+        return height([](double a, double b) { return a > b; });
+    }
     template <class Better>
     double height(const Better& better) const
     {
@@ -144,7 +151,8 @@ TEST_CASE("under the exponential law a sheet rests where its weight is balanced"
     }
 }
 
-TEST_CASE("towards rest BDF2 is followed until an attempt at statics has failed, then implicit Euler hurries", "[response]")
+TEST_CASE("towards rest BDF2 is followed until an attempt at statics has failed, then implicit Euler hurries",
+          "[response]")
 {
     Params params;
     params.body_repulsion.stiffness = 2;
@@ -176,7 +184,8 @@ TEST_CASE("towards rest BDF2 is followed until an attempt at statics has failed,
     CHECK(longest_step("implicit_euler", before, true) == Approx(0.04));
 }
 
-TEST_CASE("who only wants balance gets the cloth where its forces first nearly balance, before any statics", "[response]")
+TEST_CASE("who only wants balance gets the cloth where its forces first nearly balance, before any statics",
+          "[response]")
 {
     Params params;
     params.body_repulsion.stiffness = 2;
@@ -187,7 +196,7 @@ TEST_CASE("who only wants balance gets the cloth where its forces first nearly b
     options.only_balances = true;
     DrapeProgress progress;
     const auto hear = [](const StepEvent& event) {
-        CHECK(event.dt > 0);   // static iterations are none of time
+        CHECK(event.dt > 0);  // static iterations are none of time
         return true;
     };
     REQUIRE(drape_to_equilibrium(*sheet.phase, options, progress, hear) == PhaseEnd::reached);
@@ -219,12 +228,13 @@ TEST_CASE("under the velocity rule Coulomb's friction holds or slows a sheet on 
     const double lean = 0.3, dt = 2e-3;
     // Explicit schemes: Newton's method may leave a part of a short step's gain in velocity to the next.
     for (const char* integrator : {"velocity_verlet", "symplectic_euler"})
-        for (double friction : {0.2, 0.4}) {   // tan 0.3 is 0.309
+        for (double friction : {0.2, 0.4}) {  // tan 0.3 is 0.309
             INFO(integrator << ", friction " << friction);
             Landing sheet(rule(0, 1), gap, friction, lean);
             const double start = sheet.phase->positions()[12].x();
             sheet.fly(integrator, dt, 0.2, [](double) {});
-            const double expected = friction < std::tan(lean) ? g * (std::sin(lean) - friction * std::cos(lean)) * 0.2 : 0;
+            const double expected =
+                friction < std::tan(lean) ? g * (std::sin(lean) - friction * std::cos(lean)) * 0.2 : 0;
             CHECK(-sheet.mean_velocity().x() == Approx(expected).epsilon(1e-6).margin(1e-9));
             if (expected == 0) CHECK(sheet.phase->positions()[12].x() == Approx(start).margin(1e-9));
         }

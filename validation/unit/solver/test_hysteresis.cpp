@@ -13,7 +13,7 @@ using namespace selvage;
 
 namespace {
 
-constexpr double loop_weft = 1.2e-3, loop_warp = 4.8e-4;   // 2HB [N]
+constexpr double loop_weft = 1.2e-3, loop_warp = 4.8e-4;  // 2HB [N]
 
 FabricTable rubbing_fabric()
 {

@@ -62,7 +62,7 @@ std::vector<real> run(Phase& phase, std::string_view name, double until, int ste
     return phase.state().pos;
 }
 
-constexpr double swing_time = 0.1;   // [s]
+constexpr double swing_time = 0.1;  // [s]
 
 std::vector<real> swing(std::string_view name, double damping, int steps)
 {
@@ -78,7 +78,7 @@ double observed_order(std::string_view name, double damping, int steps, const st
     const double coarse = largest_distance(shape.state(), swing(name, damping, steps), truth);
     const double fine = largest_distance(shape.state(), swing(name, damping, 2 * steps), truth);
     INFO(name << ": errors " << coarse << " and " << fine);
-    CHECK(fine > 1e-12);   // else rounding is measured
+    CHECK(fine > 1e-12);  // else rounding is measured
     return std::log2(coarse / fine);
 }
 
@@ -95,7 +95,7 @@ double total_energy(Phase& phase) { return phase.newton().potential_energy() + p
 // A single degree of freedom: the middle of three rows is free and swings out of the plane of a prestressed strip.
 struct Oscillator {
     Sheet sheet{3};
-    double frequency = 0;   // [rad/s]
+    double frequency = 0;  // [rad/s]
 
     Oscillator()
     {
@@ -130,7 +130,8 @@ bool stays_bounded(std::string_view name, double dt, double damping)
     sheet.options.params.gravity = {};
     sheet.model.fabrics.at("test").damping = damping;
     sheet.options.params.damping.scale = damping > 0 ? 1 : 0;
-    for (int v = 0; v < 16; ++v) sheet.model.cloth.positions[v] += 1e-9 * Vec3(std::sin(v), std::cos(2 * v), std::sin(3 * v));
+    for (int v = 0; v < 16; ++v)
+        sheet.model.cloth.positions[v] += 1e-9 * Vec3(std::sin(v), std::cos(2 * v), std::sin(3 * v));
     Phase phase = sheet.phase();
     const std::vector<real> start = phase.state().pos;
     const auto integrator = make_integrator(name, phase);
@@ -238,7 +239,8 @@ TEST_CASE("without gravity and pins every integrator keeps the momentum")
         if (info.order == 0) continue;
         Sheet sheet;
         sheet.options.params.gravity = {};
-        for (int v = 0; v < 16; ++v) sheet.velocities.push_back(Vec3(0.3 * std::sin(v), 0.5 - 0.02 * v, 0.4 * std::cos(v)));
+        for (int v = 0; v < 16; ++v)
+            sheet.velocities.push_back(Vec3(0.3 * std::sin(v), 0.5 - 0.02 * v, 0.4 * std::cos(v)));
         Phase phase = sheet.phase();
         const Vec3 before = momentum(phase.state());
         run(phase, info.name, 0.1, 100);
@@ -329,7 +331,7 @@ TEST_CASE("adaptive steps keep the estimated error below what is asked and grow 
         options.adaptive = true;
         options.error = 1e-6;
         NewtonOptions newton = exact();
-        newton.tolerance = 1e-6;   // short steps cannot resolve smaller forces
+        newton.tolerance = 1e-6;  // short steps cannot resolve smaller forces
         StepControl control(phase, *integrator, options);
         double time = 0, shortest = 1, longest = 0;
         while (time < 0.05) {

@@ -83,7 +83,7 @@ struct Belt {
 TEST_CASE("a sheet that sticks to a moving plane goes with it")
 {
     for (const char* integrator : {"implicit_euler", "bdf2"}) {
-        Belt belt(0.2, 0.8, true);   // at most 2.4 m/s^2: it never slips
+        Belt belt(0.2, 0.8, true);  // at most 2.4 m/s^2: it never slips
         DrapeProgress progress;
         const double start = belt.ride(0.1, progress, integrator).x();
         CHECK(belt.ride(0.6, progress, integrator).x() - start == Approx(0.1).margin(5e-4));
@@ -94,7 +94,7 @@ TEST_CASE("a sheet that sticks to a moving plane goes with it")
 
 TEST_CASE("a sheet that slides on a moving plane is driven by Coulomb's force")
 {
-    Belt belt(5, 0.1, false);   // for 0.5 s faster than friction lets the sheet become
+    Belt belt(5, 0.1, false);  // for 0.5 s faster than friction lets the sheet become
     DrapeProgress progress;
     belt.ride(0.3, progress);
     const double before = mean(belt.phase->velocities()).x();
@@ -104,7 +104,7 @@ TEST_CASE("a sheet that slides on a moving plane is driven by Coulomb's force")
 
 TEST_CASE("resting on a moving body means resting once it stands still")
 {
-    Belt belt(0.2, 0.8, true);   // at most 2.4 m/s^2: it never slips
+    Belt belt(0.2, 0.8, true);  // at most 2.4 m/s^2: it never slips
     EquilibriumOptions options;
     options.step.longest = 0.01;
     DrapeProgress progress;
@@ -152,7 +152,8 @@ TEST_CASE("held vertices follow their path exactly")
         options.newton_iterations = 60;
         DrapeProgress progress;
         const auto follow = [&](const StepEvent& event) {
-            const double lifted = std::min(event.time, 0.4), angle = std::numbers::pi * std::clamp((event.time - 0.2) / 0.4, 0.0, 1.0);
+            const double lifted = std::min(event.time, 0.4),
+                         angle = std::numbers::pi * std::clamp((event.time - 0.2) / 0.4, 0.0, 1.0);
             const std::vector<Vec3> x = phase.positions();
             for (const int v : model.cloth.pinned) {
                 const Vec3 at = model.cloth.positions[v] + lifted * lift.velocity;

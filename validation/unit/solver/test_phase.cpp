@@ -64,8 +64,8 @@ Vec3 centre_of_mass(const Phase& phase)
 }
 
 struct Slide {
-    double way = 0;             ///< In the second half of a second [m].
-    double acceleration = 0;    ///< Mean, after the landing in the first 0.2 s [m/s^2].
+    double way = 0;           ///< In the second half of a second [m].
+    double acceleration = 0;  ///< Mean, after the landing in the first 0.2 s [m/s^2].
 };
 
 // A sheet lying on a plane that falls towards +x by `angle`.
@@ -208,7 +208,8 @@ TEST_CASE("a phase that starts over is one that was made with the new positions"
     PhaseOptions options;
     options.params = cloth_params();
     Profile profile;
-    Phase again(model, options, nullptr, profile, model.cloth.positions, {}), fresh(model, options, nullptr, profile, bent, {});
+    Phase again(model, options, nullptr, profile, model.cloth.positions, {}),
+        fresh(model, options, nullptr, profile, bent, {});
     NewtonOptions newton;
     again.newton().step(0.01, newton);
     again.start_over(model, bent);
@@ -228,7 +229,7 @@ TEST_CASE("a step that is to stop is given up as if it had not begun")
     Phase phase(model, options, nullptr, profile, model.cloth.positions, {});
     int asked = 0;
     EquilibriumOptions equilibrium;
-    equilibrium.stop = [&asked] { return ++asked > 6; };   // in the middle of a step
+    equilibrium.stop = [&asked] { return ++asked > 6; };  // in the middle of a step
     std::vector<real> pos, vel;
     DrapeProgress progress;
     double time = 0;
@@ -249,7 +250,7 @@ TEST_CASE("a step that is to stop is given up as if it had not begun")
 TEST_CASE("a plan launches and allocates only what the scene has")
 {
     std::vector<std::string> overrides{"sheet.resolution=9"};
-    CHECK(plan_of("builtin:hanging", overrides).embree);   // for the picture
+    CHECK(plan_of("builtin:hanging", overrides).embree);  // for the picture
     overrides.push_back("output.picture=false");
     const RunPlan plan = plan_of("builtin:hanging", overrides);
     CHECK(plan.phases.size() == 1);

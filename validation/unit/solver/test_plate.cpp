@@ -8,7 +8,7 @@ using namespace selvage;
 
 namespace {
 
-constexpr double curvature = 1e-3;   // so small that the mesh's angles are those of a flat plate's deflection [1/m]
+constexpr double curvature = 1e-3;  // so small that the mesh's angles are those of a flat plate's deflection [1/m]
 
 FabricTable one_rigidity(double weft, double warp)
 {
@@ -62,7 +62,8 @@ double bent_area(const Cloth& cloth, int axis)
             at_low += cloth.positions[v][axis] < low + 1e-9;
             at_high += cloth.positions[v][axis] > high - 1e-9;
         }
-        const Vec3 normal = (cloth.positions[f[1]] - cloth.positions[f[0]]).cross(cloth.positions[f[2]] - cloth.positions[f[0]]);
+        const Vec3 normal =
+            (cloth.positions[f[1]] - cloth.positions[f[0]]).cross(cloth.positions[f[2]] - cloth.positions[f[0]]);
         if (at_low < 2 && at_high < 2) total += 0.5 * normal.norm();
     }
     return total;
@@ -156,7 +157,7 @@ TEST_CASE("next to held vertices a plate bends from the clamp on, with its whole
         if (v % 11 < 2) cloth.pinned.push_back(v);
     std::vector<Vec3> positions = cloth.positions;
     for (Vec3& x : positions) {
-        const double way = std::max(x.x() - 0.1, 0.0);   // the second column is where the clamp ends
+        const double way = std::max(x.x() - 0.1, 0.0);  // the second column is where the clamp ends
         x.z() = 0.5 * curvature * way * way;
     }
     const double free_area = 0.7 * 0.9, end_area = 0.5 * 0.7 * 0.1;

@@ -4,9 +4,9 @@
 #include <random>
 
 #include "host/scene/plan.hpp"
+#include "host/solver/state/springs.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/phase.hpp"
-#include "host/solver/state/springs.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"
 
@@ -35,9 +35,9 @@ Cloth irregular_cloth(int side, double shift)
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(-0.1 * shift, 0.1 * shift);
     for (int r = 1; r + 1 < side; ++r)
-        for (int c = 1; c + 1 < side; ++c) cloth.panel_coordinates[r * side + c] += Vec2(uniform(random), uniform(random));
-    for (std::size_t v = 0; v < cloth.positions.size(); ++v)
-        cloth.positions[v] << cloth.panel_coordinates[v], 0;
+        for (int c = 1; c + 1 < side; ++c)
+            cloth.panel_coordinates[r * side + c] += Vec2(uniform(random), uniform(random));
+    for (std::size_t v = 0; v < cloth.positions.size(); ++v) cloth.positions[v] << cloth.panel_coordinates[v], 0;
     return cloth;
 }
 
@@ -99,9 +99,11 @@ double hanging_elongation(Params params, double limit)
 
 }  // namespace
 
-TEST_CASE("springs on a grid show the fabric's stretch and shear stiffness, and the shear stiffness as coupling", "[springs]")
+TEST_CASE("springs on a grid show the fabric's stretch and shear stiffness, and the shear stiffness as coupling",
+          "[springs]")
 {
-    const FabricTable fabrics = test_fabrics();   // weft 3, warp 2, shear 0.7 N/m; its coupling of 0.5 N/m is not followed
+    const FabricTable fabrics =
+        test_fabrics();  // weft 3, warp 2, shear 0.7 N/m; its coupling of 0.5 N/m is not followed
     const Cloth cloth = grid_cloth(6, 5);
     CHECK(modulus(cloth, fabrics, 1, 0, 0) == Approx(3).epsilon(1e-6));
     CHECK(modulus(cloth, fabrics, 0, 1, 0) == Approx(2).epsilon(1e-6));
@@ -130,7 +132,8 @@ TEST_CASE("springs on a grid pull a strip without shear stiffness exactly by its
     CHECK(across < 1e-12);
 }
 
-TEST_CASE("springs on irregular triangles that are strained uniformly show the fabric's stiffness within 2 %", "[springs]")
+TEST_CASE("springs on irregular triangles that are strained uniformly show the fabric's stiffness within 2 %",
+          "[springs]")
 {
     const Cloth cloth = irregular_cloth(13, 0.25);
     const FabricTable fabrics = test_fabrics();
@@ -163,7 +166,7 @@ TEST_CASE("over-long springs and faces hold a loaded strip within 6 % of its lim
 TEST_CASE("a bend spring stores the energy of a hinge at the reference curvature", "[springs]")
 {
     const FabricTable fabrics = test_fabrics();
-    const double size = 0.004;   // m; the fold is 0.2 rad
+    const double size = 0.004;  // m; the fold is 0.2 rad
     Cloth cloth = grid_cloth(2, 2, size);
     Params params = spring_params(0, 1);
     params.bending.scale = 1;

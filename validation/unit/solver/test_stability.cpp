@@ -7,7 +7,8 @@
 
 using namespace selvage;
 
-TEST_CASE("soft sheets hurled at a sphere end as stable, shortened, refused or given up, never with energy from nowhere")
+TEST_CASE(
+    "soft sheets hurled at a sphere end as stable, shortened, refused or given up, never with energy from nowhere")
 {
     for (const IntegratorInfo& info : integrators()) {
         if (!info.is_explicit) continue;
@@ -29,7 +30,8 @@ TEST_CASE("however violently it starts, a sheet that begins free of itself does 
         for (const ViolentStart start : {ViolentStart::stretched, ViolentStart::hurled})
             for (const double step : {1e-3, 1e-2}) {
                 const StabilityResult result = run_cell({integrator, step, 0.01, 16, 0, start, true});
-                INFO(integrator << ", step " << step << ", " << name_of(start) << ", energy ratio " << result.energy_ratio << " " << result.message);
+                INFO(integrator << ", step " << step << ", " << name_of(start) << ", energy ratio "
+                                << result.energy_ratio << " " << result.message);
                 CHECK(result.tangled == 0);
                 CHECK(result.crossed == 0);
                 CHECK(name_of(result.verdict) != std::string(name_of(StabilityVerdict::garbage)));

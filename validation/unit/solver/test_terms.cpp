@@ -4,8 +4,8 @@
 
 #include "host/solver/linear/linear_solver.hpp"
 #include "validation/measure/finite_differences.hpp"
-#include "validation/measure/stiffness.hpp"
 #include "validation/measure/small_cloth.hpp"
+#include "validation/measure/stiffness.hpp"
 
 using namespace selvage;
 
@@ -55,7 +55,7 @@ TEST_CASE("every term's projected stiffness has no negative eigenvalue", "[terms
         State state = crumpled_state(params, 3);
         const Eigen::MatrixXd stiffness = ordered_stiffness(term, state, params, true);
         const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues()[0];
-        CHECK(lowest >= -1e-6 * stiffness.norm());   // the slots hold floats
+        CHECK(lowest >= -1e-6 * stiffness.norm());  // the slots hold floats
     }
 }
 
@@ -156,8 +156,7 @@ TEST_CASE("linear solvers of both precisions and preconditioners agree with a de
             solver->assemble(state, 100);
             const LinearResult result = solver->solve(b.data(), in_double ? 1e-12 : 1e-5, x.data());
             CHECK_FALSE(result.negative_curvature);
-            for (int i = 0; i < 243; ++i)
-                CHECK(x[dofs[i]] == Approx(expected[i]).margin(in_double ? 1e-9 : 1e-3));
+            for (int i = 0; i < 243; ++i) CHECK(x[dofs[i]] == Approx(expected[i]).margin(in_double ? 1e-9 : 1e-3));
         }
 }
 
@@ -168,7 +167,7 @@ TEST_CASE("products with contact and friction in pairs are those of the matrix",
         params.cloth_friction.scale = friction;
         State state = crumpled_state(params);
         const int n = state.size.vertex_count, vs = state.size.vertex_stride;
-        state.inv_mass[10] = 0;   // in contact and pinned
+        state.inv_mass[10] = 0;  // in contact and pinned
         clear_stiffness(state);
         for (const Term& term : all_terms())
             if (term.is_active(params)) term.add_stiffness(state, params, true);
@@ -190,7 +189,7 @@ TEST_CASE("products with contact and friction in pairs are those of the matrix",
             if (state.inv_mass[i / 3] == 0)
                 CHECK(product == 0);
             else
-                CHECK(product == Approx(expected[i]).margin(1e-6 * expected.norm()));   // the slots hold floats
+                CHECK(product == Approx(expected[i]).margin(1e-6 * expected.norm()));  // the slots hold floats
         }
     }
 }

@@ -1,8 +1,8 @@
 // Second-order backward differences with steps of any lengths, w = dt / (length of the step before):
 //     (1 + 2w)/(1 + w) x1 - (1 + w) x0 + w^2/(1 + w) x(-1) = dt v1,   the same for v1 and a1
 // The first step is one of the implicit midpoint rule: with implicit Euler's, fast modes show its first order for long.
-// It ends beyond what was solved for, where cloth could have met itself: with such contact it is one of implicit Euler. So
-// it is after a rule has moved the state, since that happens step after step and the midpoint rule damps nothing.
+// It ends beyond what was solved for, where cloth could have met itself: with such contact it is one of implicit Euler.
+// So it is after a rule has moved the state, since that happens step after step and the midpoint rule damps nothing.
 // Source: Gear 1971; Hairer, Norsett and Wanner 1993, ch. III.5 for variable steps.
 #include "host/solver/stepping/integrators/list.hpp"
 #include "host/solver/stepping/integrators/vector_tools.hpp"
@@ -11,7 +11,7 @@
 namespace selvage {
 namespace {
 
-constexpr double after_rule = -1;   // in place of the length of the step before
+constexpr double after_rule = -1;  // in place of the length of the step before
 
 class Bdf2 final : public Integrator {
 public:

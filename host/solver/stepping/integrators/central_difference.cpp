@@ -70,7 +70,7 @@ private:
         });
     }
 
-    double limit(double w, double) const override { return 2 / std::max(w, 1e-300); }   // with drag or without
+    double limit(double w, double) const override { return 2 / std::max(w, 1e-300); }  // with drag or without
 
     std::vector<real> way_, a_, last_dt_{0};
 };

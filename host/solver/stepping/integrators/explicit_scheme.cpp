@@ -6,7 +6,7 @@ namespace selvage {
 namespace {
 
 constexpr int steps_between_estimates = 100;
-constexpr int steps_in_contact = 10;   // the same where the barrier of a body may stiffen quickly
+constexpr int steps_in_contact = 10;  // the same where the barrier of a body may stiffen quickly
 
 }  // namespace
 

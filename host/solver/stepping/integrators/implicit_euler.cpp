@@ -21,7 +21,10 @@ public:
     }
 
     // The step errs by +dt^2/2 a and free flight by -dt^2/2 a: half their difference (Milne's device).
-    double error_estimate() const override { return 0.5 * largest_distance(phase_.state(), phase_.state().pos, guess_); }
+    double error_estimate() const override
+    {
+        return 0.5 * largest_distance(phase_.state(), phase_.state().pos, guess_);
+    }
 
 private:
     Phase& phase_;

@@ -38,7 +38,7 @@ private:
                 s.vel[i] = v0_[i] + h * a_[i];
             });
         }
-        a_ = s.vel;   // the velocity part of k4
+        a_ = s.vel;  // the velocity part of k4
         for_each_item(size(), [&](int i) {
             s.pos[i] = x0_[i] + way_[i];
             s.vel[i] = v0_[i] + gain_[i];
@@ -46,7 +46,8 @@ private:
         error_ = dt / 6 * largest_distance(s, a_, s.vel);
     }
 
-    // Elastic modes lie on the imaginary axis, which the stability region meets at sqrt(8); drag on the real one, at 2.785.
+    // Elastic modes lie on the imaginary axis, which the stability region meets at sqrt(8); drag on the real one,
+    // at 2.785.
     double limit(double w, double g) const override
     {
         return std::min(std::sqrt(8.0) / std::max(w, 1e-300), 2.785 / std::max(g, 1e-300));

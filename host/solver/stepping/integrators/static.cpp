@@ -39,7 +39,7 @@ public:
 private:
     Phase& phase_;
     const IntegratorInfo& info_;
-    std::vector<real> memory_{0, 0};   // factor of the step; residual after the last one
+    std::vector<real> memory_{0, 0};  // factor of the step; residual after the last one
 };
 
 }  // namespace

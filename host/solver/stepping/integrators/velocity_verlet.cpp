@@ -35,7 +35,7 @@ private:
         for_each_item(size(), [&s = state(), a = a_.data(), b = next_.data(), dt](int i) {
             s.vel[i] += 0.5 * dt * (b[i] - a[i]);
         });
-        error_ = dt * dt / 6 * largest_distance(state(), next_, a_);   // dt^3 x'''/6
+        error_ = dt * dt / 6 * largest_distance(state(), next_, a_);  // dt^3 x'''/6
         a_.swap(next_);
         known_[0] = 1;
     }
