@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "io/run/hdf5_file.hpp"
 #include "io/run/trajectory.hpp"
 
 extern char** environ;

@@ -7,6 +7,7 @@
 
 #include "host/scene/scene_phase.hpp"
 #include "io/errors.hpp"
+#include "io/scene/read_scene.hpp"
 
 namespace selvage {
 

@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "host/solver/contact/anchors.hpp"
+#include "host/solver/linear/linear_traffic.hpp"
 #include "host/solver/stepping/newton.hpp"
 #include "host/solver/terms/traffic.hpp"
 

@@ -7,6 +7,8 @@
 #include "bench/harness/scatter.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/mesh/body_tessellation.hpp"
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/model/transfer.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/terms/cloth_state.hpp"

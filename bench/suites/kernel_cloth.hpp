@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "host/collision/body_query.hpp"
+#include "host/model/body.hpp"
 #include "host/solver/contact/fabric_contact.hpp"
 #include "host/solver/linear/linear_solver.hpp"
 #include "host/solver/state/state.hpp"

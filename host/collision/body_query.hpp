@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "host/collision/body_bvh.hpp"
-#include "host/scene/body_shapes.hpp"
+#include "host/model/body.hpp"
 #include "kernels/stages/analytic_bodies.h"
 
 namespace selvage {

@@ -5,6 +5,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/scene/diagnose.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 
 namespace selvage {

@@ -8,6 +8,7 @@
 #include "host/commands/commands.hpp"
 #include "host/run/interrupt.hpp"
 #include "host/run/run.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 
 namespace selvage {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/commands/commands.hpp"
+#include "io/scene/fabric_table.hpp"
 #include "io/scene/scene.hpp"
 
 namespace selvage {

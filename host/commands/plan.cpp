@@ -5,6 +5,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/scene/plan_text.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 
 namespace selvage {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/commands/commands.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 
 namespace selvage {

@@ -5,6 +5,7 @@
 
 #include "host/commands/commands.hpp"
 #include "io/scene/scene.hpp"
+#include "io/scene/scene_schema.hpp"
 
 namespace selvage {
 

@@ -12,6 +12,7 @@
 #include "host/garment/seam.hpp"
 #include "host/mesh/grid_point.hpp"
 #include "host/mesh/panel_mesh.hpp"
+#include "host/mesh/renumber.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -155,28 +156,6 @@ Vec3 place_on_panel(const PatternPanel& panel, const Vec2& point)
     return panel.rotation * rolled + panel.translation;
 }
 
-std::vector<int> renumber_for_locality(std::vector<Vec2>& coordinates, std::vector<Face>& faces)
-{
-    const GridMap map(coordinates);
-    std::vector<GridPoint> grid;
-    grid.reserve(coordinates.size());
-    for (const Vec2& point : coordinates) grid.push_back(map.to_grid(point));
-    const std::vector<int> order = hilbert_order(grid);
-    std::vector<int> renumbered(order.size());
-    std::vector<Vec2> moved(order.size());
-    for (int vertex = 0; vertex < int(order.size()); ++vertex) {
-        renumbered[order[vertex]] = vertex;
-        moved[vertex] = coordinates[order[vertex]];
-    }
-    coordinates = std::move(moved);
-    for (Face& face : faces) {
-        for (int& vertex : face) vertex = renumbered[vertex];
-        std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-    }
-    std::sort(faces.begin(), faces.end());
-    return renumbered;
-}
-
 Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::string& garment_fabric,
                        const std::map<std::string, std::string>& panel_fabrics, const std::string& file,
                        double max_vertices)
@@ -205,49 +184,6 @@ Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::st
     }
     join_seams(pattern, side_of, cloth);
     return cloth;
-}
-
-std::vector<Face> outward_faces(const Cloth& cloth)
-{
-    std::vector<Face> faces = cloth.faces;
-    for (const ClothPanel& panel : cloth.panels)
-        for (int f = panel.first_face; panel.reversed && f < panel.first_face + panel.face_count; ++f)
-            std::swap(faces[f][1], faces[f][2]);
-    return faces;
-}
-
-void append_cloth(Cloth& to, const Cloth& other)
-{
-    const int vertices = int(to.positions.size()), faces = int(to.faces.size()), panels = int(to.panels.size());
-    const int sides = int(to.outline.size()), pairs = int(to.seam_pairs.size());
-    const auto append = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
-    append(to.panel_coordinates, other.panel_coordinates);
-    append(to.positions, other.positions);
-    append(to.warnings, other.warnings);
-    for (const Face& face : other.faces)
-        to.faces.push_back({face[0] + vertices, face[1] + vertices, face[2] + vertices});
-    for (ClothPanel panel : other.panels) {
-        panel.first_vertex += vertices;
-        panel.first_face += faces;
-        to.panels.push_back(std::move(panel));
-    }
-    for (OutlineSamples samples : other.outline) {
-        samples.panel += panels;
-        for (int& vertex : samples.vertices) vertex += vertices;
-        to.outline.push_back(std::move(samples));
-    }
-    for (Seam seam : other.seams) {
-        seam.side_a += sides;
-        seam.side_b += sides;
-        seam.first_pair += pairs;
-        to.seams.push_back(seam);
-    }
-    for (const auto& [a, b] : other.seam_pairs) to.seam_pairs.push_back({a + vertices, b + vertices});
-    for (const int vertex : other.pinned) to.pinned.push_back(vertex + vertices);
-    for (PinMotion motion : other.pin_motions) {
-        for (int& vertex : motion.vertices) vertex += vertices;
-        to.pin_motions.push_back(std::move(motion));
-    }
 }
 
 }  // namespace selvage

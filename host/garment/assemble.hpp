@@ -10,12 +10,6 @@ namespace selvage {
 /// Returns where a point of a panel starts in the scene: rolled onto the panel's cylinder, turned and moved [m].
 Vec3 place_on_panel(const PatternPanel& panel, const Vec2& point);
 
-/// Returns vertices renumbered along a Hilbert curve and faces sorted by their smallest vertex.
-/// @param coordinates  [m], reordered in place
-/// @param faces        renumbered and sorted in place, each starting with its smallest vertex
-/// @returns the new index of each old vertex
-std::vector<int> renumber_for_locality(std::vector<Vec2>& coordinates, std::vector<Face>& faces);
-
 /// Meshes all panels of a pattern, samples the two sides of every seam alike and places the panels in the scene.
 /// @param edge_length     target edge length of the triangles [m], > 0
 /// @param garment_fabric  of panels that neither `panel_fabrics` nor the pattern gives a fabric
@@ -27,8 +21,5 @@ std::vector<int> renumber_for_locality(std::vector<Vec2>& coordinates, std::vect
 Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::string& garment_fabric,
                        const std::map<std::string, std::string>& panel_fabrics, const std::string& file,
                        double max_vertices = 20e6);
-
-/// Adds the panels, seams and pins of another cloth, its indices shifted.
-void append_cloth(Cloth& to, const Cloth& other);
 
 }  // namespace selvage

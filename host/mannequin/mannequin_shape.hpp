@@ -1,5 +1,5 @@
 #pragma once
-#include "host/mannequin/mannequin.hpp"
+#include "host/mannequin/mannequin_measures.hpp"
 #include "host/mannequin/section_tube.hpp"
 
 namespace selvage {

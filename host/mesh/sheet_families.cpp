@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include "host/garment/assemble.hpp"
 #include "host/mesh/panel_mesh.hpp"
+#include "host/mesh/renumber.hpp"
 
 namespace selvage {
 namespace {

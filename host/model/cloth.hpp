@@ -60,6 +60,12 @@ struct Cloth {
 /// The faces of a cloth wound counter-clockwise as seen from its outside, in the order of Cloth::faces.
 std::vector<Face> outward_faces(const Cloth& cloth);
 
+/// Adds the panels, seams and pins of another cloth, its indices shifted.
+void append_cloth(Cloth& to, const Cloth& other);
+
+/// Mean length of the edges of all faces at rest [m]; 0.01 without faces.
+double typical_edge(const Cloth& cloth);
+
 /// Linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.
 struct Transfer {
     std::vector<int> offset;     ///< Fine vertex count + 1.

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include "host/parallel/items.hpp"
 #include "host/parallel/trace.hpp"
 
 // Promises the compiler what every kernel guarantees: no item reads what another item writes.
@@ -31,12 +32,6 @@ void for_each_item(int count, const Body& body)
                           for (int item = range.begin(); item < end; ++item) body(item);
                       });
 }
-
-/// Items that take part: all of [0, count), or `count` of them that a list names in ascending order.
-struct Items {
-    int count = 0;
-    const int* list = nullptr;  ///< Null: all.
-};
 
 /// Runs `body(item)` for the items that take part.
 template <class Body>

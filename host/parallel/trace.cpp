@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <tbb/enumerable_thread_specific.h>
+
 namespace selvage {
 namespace {
 
@@ -47,7 +49,17 @@ void TraceTrack::add(const TraceEvent& event)
     if (events.size() >= most_events) thin();
 }
 
-Trace::Trace() : nodes_{{.name = "run"}}, children_(1), own_(&tracks_.local()) {}
+struct Trace::ThreadTracks {
+    tbb::enumerable_thread_specific<TraceTrack> of_thread;
+};
+
+Trace::Trace()
+    : nodes_{{.name = "run"}}, children_(1), tracks_(std::make_unique<ThreadTracks>()),
+      own_(&tracks_->of_thread.local())
+{
+}
+
+Trace::~Trace() = default;
 
 void Trace::open(std::string_view name)
 {
@@ -85,13 +97,13 @@ void Trace::close(std::int64_t bytes, std::int64_t flops)
 
 void Trace::add_task(const Mark& mark, std::int64_t begin)
 {
-    tracks_.local().add({begin, now(), mark.scope, mark.call, true});
+    tracks_->of_thread.local().add({begin, now(), mark.scope, mark.call, true});
 }
 
 std::vector<TraceTrack> Trace::tracks() const
 {
     std::vector<TraceTrack> result{*own_};
-    for (const TraceTrack& track : tracks_)
+    for (const TraceTrack& track : tracks_->of_thread)
         if (&track != own_) result.push_back(track);
     const auto outer_first = [this](const TraceEvent& a, const TraceEvent& b) {
         if (a.begin != b.begin) return a.begin < b.begin;

@@ -1,11 +1,10 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <tbb/enumerable_thread_specific.h>
 
 namespace selvage {
 
@@ -53,6 +52,7 @@ public:
     };
 
     Trace();
+    ~Trace();
     Trace(const Trace&) = delete;
     Trace& operator=(const Trace&) = delete;
 
@@ -94,7 +94,8 @@ private:
     std::vector<Open> open_;
     int current_ = 0;
     std::uint32_t call_ = 0, calls_ = 0;
-    mutable tbb::enumerable_thread_specific<TraceTrack> tracks_;
+    struct ThreadTracks;
+    std::unique_ptr<ThreadTracks> tracks_;
     TraceTrack* own_;  ///< Of the thread that opens scopes.
 };
 

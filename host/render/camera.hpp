@@ -11,6 +11,13 @@ struct ViewDirection {
     float elevation = 0;  ///< [rad] above the horizon.
 };
 
+/// The two views that stand side by side.
+enum class PictureViews {
+    automatic,       ///< Front and back for cloth with seams, three quarters for sheets.
+    front_and_back,  ///< From -y and from +y, a little from above.
+    three_quarters,  ///< From the front right and the back left, from above.
+};
+
 /// A perspective camera; screen coordinates run from -1 to 1, right and up.
 struct Camera {
     Vec3f origin = Vec3f::Zero();  ///< [m]

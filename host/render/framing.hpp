@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "host/render/camera.hpp"
-#include "host/render/picture.hpp"
+#include "host/render/drawn_mesh.hpp"
 
 namespace selvage {
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "host/render/camera.hpp"
 #include "io/geometry.hpp"
 #include "io/image.hpp"
 
@@ -14,13 +15,6 @@ struct PictureCloth {
     std::vector<int> face_panel;                 ///< Panel of each face, for its colour; empty for one panel.
     std::vector<std::array<int, 2>> seam_edges;  ///< Vertex pairs drawn as stitching.
     std::vector<int> highlighted_faces;          ///< Drawn in a warning colour.
-};
-
-/// The two views that stand side by side.
-enum class PictureViews {
-    automatic,       ///< Front and back for cloth with seams, three quarters for sheets.
-    front_and_back,  ///< From -y and from +y, a little from above.
-    three_quarters,  ///< From the front right and the back left, from above.
 };
 
 struct PictureOptions {

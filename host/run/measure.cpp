@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "host/solver/state/rest_state.hpp"
 #include "host/solver/state/topology.hpp"
 
 namespace selvage {

@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "host/mesh/self_intersections.hpp"
+#include "host/model/body.hpp"
 #include "host/parallel/launch.hpp"
 #include "host/run/cloth_picture.hpp"
+#include "host/scene/plan_reasons.hpp"
 #include "host/scene/scene_phase.hpp"
 #include "host/solver/contact/fabric_contact.hpp"
 #include "io/errors.hpp"
@@ -14,11 +16,7 @@
 namespace selvage {
 namespace {
 
-constexpr double coarsest_edge = 0.025;  // [m], of garments: longer ones do not lie around arms as the finer ones will
-
 constexpr double most_tangled = 0.01;  // intersections per triangle with which a carried garment may start
-constexpr std::size_t worth_sewing_first =
-    2;  // levels below a garment: with one, its own drape costs as much as it saves
 
 // What hangs freely is near its rest in the shape that was carried over: the static energy is tried before any motion.
 // Cloth that lies on bodies has folds that only the finer mesh can make, and is not.
@@ -107,33 +105,7 @@ int intersections_of(const Cloth& cloth, const std::vector<Body>& bodies, const 
     return int(count);
 }
 
-// The coarsest cloth that a scene is started from.
-std::size_t levels_used(const Scene& scene, const SceneModel& model)
-{
-    std::size_t levels = model.model.coarser.size();
-    while (scene.has_garment() && levels > 0 && typical_edge(model.model.coarser[levels - 1]) > coarsest_edge) --levels;
-    return levels;
-}
-
 }  // namespace
-
-std::string why_no_coarse_start(const Scene& scene, const SceneModel& model)
-{
-    const std::string& integrator = scene.solver.integrator;
-    if (!scene.solver.progressive) return "solver.progressive is false";
-    if (scene.solver.until != "equilibrium") return "the run shows a motion (solver.until)";
-    if (integrator != "automatic" && integrator != "implicit_euler" && integrator != "static")
-        return "solver.integrator asks for another way to rest";
-    if (scene.moves()) return "held vertices or bodies move, and the cloth has to follow";
-    if (!scene.has_garment() && !model.model.bodies.empty())
-        return "there are bodies, and what the cloth meets first decides where it lies";
-    if (scene.solver.load_steps > 1) return "the weight grows in steps (solver.load_steps)";
-    if (scene.bending.hysteresis) return "bending hysteresis remembers the way (bending.hysteresis)";
-    const std::size_t levels = levels_used(scene, model);
-    if (levels == 0) return "there are no coarser meshes of the cloth";
-    if (scene.has_garment() && levels < worth_sewing_first) return "the garment is coarse enough to be sewn as it is";
-    return "";
-}
 
 std::vector<Vec3> carry_over(const Cloth& fine, const Transfer& transfer, const std::vector<Vec3>& positions)
 {

@@ -8,10 +8,6 @@
 
 namespace selvage {
 
-/// Says why a scene is not draped from coarse to fine; empty: it is.
-/// Only shapes at rest may be reached on another way than the cloth would go, and only where the way leaves no trace.
-std::string why_no_coarse_start(const Scene& scene, const SceneModel& model);
-
 /// What came of one of the coarser cloths.
 struct CoarseStage {
     int vertices = 0;

@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <map>
 
+#include "host/model/body.hpp"
 #include "host/render/picture.hpp"
 #include "host/scene/body_model.hpp"
 #include "io/errors.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/run/trajectory.hpp"
+#include "io/scene/read_scene.hpp"
 
 namespace selvage {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "host/model/body.hpp"
 #include "host/solver/stepping/sleep.hpp"
 #include "io/errors.hpp"
 

@@ -7,6 +7,7 @@
 #include <tbb/global_control.h>
 
 #include "host/mesh/self_intersections.hpp"
+#include "host/model/body.hpp"
 #include "host/run/cloth_picture.hpp"
 #include "host/run/measure.hpp"
 #include "host/scene/scene_phase.hpp"
@@ -229,8 +230,8 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
         s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds,
                                   c.intersections, c.used});
     s.residual = residual;
-    s.energy.membrane = in_plane_energy(phase.newton());
-    s.energy.bending = bending_energy(phase.newton());
+    s.energy.membrane = in_plane_energy(phase.newton().terms());
+    s.energy.bending = bending_energy(phase.newton().terms());
     s.energy.gravity = phase.newton().energy_of("gravity");
     s.energy.contact = phase.newton().energy_of("body_contact") + phase.newton().energy_of("body_repulsion");
     s.energy.kinetic = phase.newton().kinetic_energy();

@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include "host/mannequin/mannequin.hpp"
+#include "host/model/body.hpp"
+#include "host/scene/body_shapes.hpp"
+#include "io/mesh/body_mesh.hpp"
 #include "io/mesh/mesh_obj.hpp"
 
 namespace selvage {

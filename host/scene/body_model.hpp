@@ -1,7 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "host/scene/body_shapes.hpp"
+#include "host/model/body.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "host/mesh/body_tessellation.hpp"
+#include "host/model/body.hpp"
 
 namespace selvage {
 namespace {
@@ -67,21 +68,6 @@ int sphere_level(double radius)
 }
 
 }  // namespace
-
-TriangleMesh body_mesh_at(const Body& body, double time)
-{
-    TriangleMesh mesh = body.mesh;
-    if (!body.motion) return mesh;
-    if (body.motion->deforms()) body.motion->vertices_at(time, mesh.vertices);
-    const Placement place = body.motion->placement(time);
-    for (Vec3& vertex : mesh.vertices) vertex = place * vertex;
-    return mesh;
-}
-
-bool any_moves(const std::vector<Body>& bodies)
-{
-    return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.motion != nullptr; });
-}
 
 Body make_body(const BodyScene& body_scene, const Scene& scene, int index)
 {

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/mesh/self_intersections.hpp"
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/render/picture.hpp"
 #include "host/scene/plan.hpp"
 

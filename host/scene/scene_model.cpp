@@ -10,6 +10,7 @@
 #include "host/garment/assemble.hpp"
 #include "host/garment/catalogue.hpp"
 #include "host/garment/sheet.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/model/transfer.hpp"
 #include "host/scene/body_model.hpp"
 #include "io/memory.hpp"

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "host/model/cloth_model.hpp"
 #include "host/solver/stepping/phase.hpp"
 #include "io/scene/scene.hpp"
 

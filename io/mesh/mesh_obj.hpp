@@ -5,7 +5,6 @@
 
 #include "io/errors.hpp"
 #include "io/geometry.hpp"
-#include "io/mesh/body_mesh.hpp"
 
 namespace selvage {
 

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "io/geometry.hpp"
-#include "io/run/hdf5_file.hpp"
 
 namespace selvage {
+
+class Hdf5File;
 
 /// To what written positions are rounded: a power of two loses nothing in float32 and compresses well.
 enum class PositionGrid { lossless, fine_8um, coarse_60um };
@@ -68,6 +69,10 @@ public:
     /// @throws InputError if the file is not a run or holds fewer frames.
     static TrajectoryWriter resume(const std::string& path, int keep_frames);
 
+    TrajectoryWriter(TrajectoryWriter&&) noexcept;
+    TrajectoryWriter& operator=(TrajectoryWriter&&) noexcept;
+    ~TrajectoryWriter();
+
     /// Appends and commits a frame.
     /// @param positions  [m], one per point
     /// @throws std::runtime_error naming the vertex if a position is not finite; nothing is written then.
@@ -90,9 +95,8 @@ private:
     std::vector<double> times_;  ///< Of the committed frames [s].
     std::chrono::steady_clock::time_point index_written_{};
     std::vector<float> buffer_;  ///< Rounded positions of one frame.
-    std::unique_ptr<Hdf5File> file_;
-    Hdf5Id points_;
-    std::vector<Hdf5Id> columns_;  ///< In the order of frame_columns().
+    struct Datasets;
+    std::unique_ptr<Datasets> open_;  ///< Null once the file is finished.
 };
 
 /// Reads run.h5, finished or not.
@@ -100,6 +104,8 @@ class TrajectoryReader {
 public:
     /// @throws InputError if the file is missing, not HDF5, or not a run.
     explicit TrajectoryReader(const std::string& path);
+    TrajectoryReader(TrajectoryReader&&) noexcept;
+    ~TrajectoryReader();
 
     const TrajectoryLayout& layout() const { return layout_; }
     int frame_count() const { return int(scalars_.size()); }  ///< Committed frames.
@@ -115,7 +121,7 @@ public:
 private:
     void check_frame(int frame) const;
 
-    Hdf5File file_;
+    std::unique_ptr<Hdf5File> file_;
     TrajectoryLayout layout_;
     std::vector<FrameScalars> scalars_;
 };

@@ -66,14 +66,17 @@ InputError not_a_run(const std::string& path, const std::string& found)
 
 }  // namespace
 
-TrajectoryReader::TrajectoryReader(const std::string& path) : file_(path, Hdf5Access::read)
+TrajectoryReader::TrajectoryReader(TrajectoryReader&&) noexcept = default;
+TrajectoryReader::~TrajectoryReader() = default;
+
+TrajectoryReader::TrajectoryReader(const std::string& path) : file_(std::make_unique<Hdf5File>(path, Hdf5Access::read))
 {
-    if (!file_.exists("/selvage/triangles") || !file_.exists(points))
+    if (!file_->exists("/selvage/triangles") || !file_->exists(points))
         throw not_a_run(path, "an HDF5 file without /selvage/triangles and /VTKHDF/Points");
     try {
-        layout_ = read_layout(file_);
-        scalars_ = read_scalars(file_, std::size_t(file_.integer(steps, "NSteps")));
-        if (file_.shape(points).at(0) < hsize_t(layout_.point_count) * scalars_.size())
+        layout_ = read_layout(*file_);
+        scalars_ = read_scalars(*file_, std::size_t(file_->integer(steps, "NSteps")));
+        if (file_->shape(points).at(0) < hsize_t(layout_.point_count) * scalars_.size())
             throw std::runtime_error("fewer positions than frames");
     } catch (const InputError&) {
         throw;
@@ -85,7 +88,7 @@ TrajectoryReader::TrajectoryReader(const std::string& path) : file_(path, Hdf5Ac
 void TrajectoryReader::check_frame(int frame) const
 {
     if (frame < 0 || frame >= frame_count())
-        throw InputError({file_.path(), 0, 0, "frame"}, std::to_string(frame),
+        throw InputError({file_->path(), 0, 0, "frame"}, std::to_string(frame),
                          "a frame from 0 to " + std::to_string(frame_count() - 1));
 }
 
@@ -94,12 +97,12 @@ std::vector<Vec3> TrajectoryReader::read_frame(int frame) const
     check_frame(frame);
     const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(layout_.point_count), 0},
         count{hsize_t(layout_.point_count), 3};
-    const Hdf5Id dataset = open_points(file_);
+    const Hdf5Id dataset = open_points(*file_);
     const Hdf5Id source(H5Dget_space(dataset), H5Sclose, points);
     require_hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), points);
     const Hdf5Id target(H5Screate_simple(2, count.data(), nullptr), H5Sclose, points);
     std::vector<double> values(3 * std::size_t(layout_.point_count));
-    require_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()), file_.path());
+    require_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()), file_->path());
     return rows_of<Vec3>(values);
 }
 
@@ -107,11 +110,11 @@ std::vector<unsigned char> TrajectoryReader::read_raw_frame(int frame, std::uint
 {
     check_frame(frame);
     const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(layout_.point_count), 0};
-    const Hdf5Id dataset = open_points(file_);
+    const Hdf5Id dataset = open_points(*file_);
     hsize_t size = 0;
-    require_hdf5(H5Dget_chunk_storage_size(dataset, start.data(), &size), file_.path());
+    require_hdf5(H5Dget_chunk_storage_size(dataset, start.data(), &size), file_->path());
     std::vector<unsigned char> bytes(size);
-    require_hdf5(H5Dread_chunk(dataset, H5P_DEFAULT, start.data(), &filter_mask, bytes.data()), file_.path());
+    require_hdf5(H5Dread_chunk(dataset, H5P_DEFAULT, start.data(), &filter_mask, bytes.data()), file_->path());
     return bytes;
 }
 

@@ -80,12 +80,26 @@ Eigen::Vector3f written_position(const Vec3& position, double spacing)
     return rounded.cast<float>();
 }
 
+struct TrajectoryWriter::Datasets {
+    Hdf5File file;
+    Hdf5Id points;
+    std::vector<Hdf5Id> columns;  ///< In the order of frame_columns.
+
+    explicit Datasets(const std::string& path) : file(path, Hdf5Access::append), points(open_points(file))
+    {
+        for (const FrameColumn& column : frame_columns) columns.push_back(file.open_dataset(column.name));
+    }
+};
+
+TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
+TrajectoryWriter& TrajectoryWriter::operator=(TrajectoryWriter&&) noexcept = default;
+TrajectoryWriter::~TrajectoryWriter() = default;
+
 TrajectoryWriter::TrajectoryWriter(const std::string& path, const TrajectoryLayout& layout, std::vector<double> times)
     : path_(path), point_count_(layout.point_count), triangle_count_(int(layout.triangles.size())),
       spacing_(grid_spacing(layout.grid)), times_(std::move(times)), buffer_(3 * layout.panel.size()),
-      file_(std::make_unique<Hdf5File>(path, Hdf5Access::append)), points_(open_points(*file_))
+      open_(std::make_unique<Datasets>(path))
 {
-    for (const FrameColumn& column : frame_columns) columns_.push_back(file_->open_dataset(column.name));
     write_index_file();
 }
 
@@ -112,7 +126,7 @@ TrajectoryWriter TrajectoryWriter::resume(const std::string& path, int keep_fram
 
 void TrajectoryWriter::write_frame(std::span<const Vec3> positions, const FrameScalars& scalars)
 {
-    if (!file_) throw std::logic_error("trajectory: a frame after the end");
+    if (!open_) throw std::logic_error("trajectory: a frame after the end");
     if (int(positions.size()) != point_count_) throw std::invalid_argument("trajectory: positions differ in number");
     if (!std::isfinite(scalars.time)) throw std::runtime_error("trajectory: the time of a frame is not finite");
     for (std::size_t point = 0; point < positions.size(); ++point) {
@@ -124,11 +138,12 @@ void TrajectoryWriter::write_frame(std::span<const Vec3> positions, const FrameS
     }
     const int frame = frame_count();
     const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(point_count_), 0}, count{hsize_t(point_count_), 3};
-    lengthen_points(points_, frame + 1, point_count_);
-    const Hdf5Id target(H5Dget_space(points_), H5Sclose, points);
+    const Hdf5Id& dataset = open_->points;
+    lengthen_points(dataset, frame + 1, point_count_);
+    const Hdf5Id target(H5Dget_space(dataset), H5Sclose, points);
     require_hdf5(H5Sselect_hyperslab(target, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), points);
     const Hdf5Id source(H5Screate_simple(2, count.data(), nullptr), H5Sclose, points);
-    require_hdf5(H5Dwrite(points_, H5T_NATIVE_FLOAT, source, target, H5P_DEFAULT, buffer_.data()), points);
+    require_hdf5(H5Dwrite(dataset, H5T_NATIVE_FLOAT, source, target, H5P_DEFAULT, buffer_.data()), points);
     append_row(scalars);
     times_.push_back(scalars.time);
     if (std::chrono::steady_clock::now() - index_written_ > index_interval) write_index_file();
@@ -139,11 +154,11 @@ void TrajectoryWriter::append_row(const FrameScalars& scalars)
     const int frame = frame_count();
     const auto rows = frame_rows(frame, point_count_, scalars);
     for (std::size_t column = 1; column < rows.size(); ++column)
-        write_row(columns_[column], frame_columns[column], frame, rows[column]);
-    file_->flush();
-    write_row(columns_[0], frame_columns[0], frame, rows[0]);
-    file_->set_integer(steps, "NSteps", frame + 1);
-    file_->flush();
+        write_row(open_->columns[column], frame_columns[column], frame, rows[column]);
+    open_->file.flush();
+    write_row(open_->columns[0], frame_columns[0], frame, rows[0]);
+    open_->file.set_integer(steps, "NSteps", frame + 1);
+    open_->file.flush();
 }
 
 void TrajectoryWriter::write_index_file()
@@ -154,12 +169,10 @@ void TrajectoryWriter::write_index_file()
 
 void TrajectoryWriter::finish()
 {
-    if (!file_) return;
-    write_positions_view(*file_, frame_count(), point_count_);
-    file_->flush();
-    columns_.clear();
-    points_.reset();
-    file_.reset();
+    if (!open_) return;
+    write_positions_view(open_->file, frame_count(), point_count_);
+    open_->file.flush();
+    open_.reset();
     write_index_file();
 }
 

@@ -43,22 +43,10 @@ struct Fabric {
 /// isotropic.
 double twist_rigidity(const Fabric& fabric);
 
-/// Returns the names of the built-in fabrics, sorted.
-std::vector<std::string> fabric_preset_names();
-
-/// Returns a built-in fabric.
-/// @throws InputError naming the nearest preset if there is none of that name.
-Fabric fabric_preset(const std::string& name);
-
 /// Tells whether the membrane is other than straight in any direction.
 bool has_curves(const Fabric& fabric);
 
 /// Returns the weft, warp and shear curve of the membrane, limits included.
 std::array<StressCurve, 3> membrane_curves(const Fabric& fabric);
-
-/// Checks ranges and units.
-/// @param key  key path of the fabric's table, for messages
-/// @throws InputError naming the key, the value and the accepted range.
-void check_fabric(const Fabric& fabric, const std::string& file, const std::string& key);
 
 }  // namespace selvage

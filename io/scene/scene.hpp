@@ -1,7 +1,6 @@
 #pragma once
 #include <limits>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -68,31 +67,5 @@ struct Scene {
     /// Returns a file name from the scene, resolved against the scene's folder.
     std::string resolve(const std::string& file_name) const;
 };
-
-/// Reads and checks a scene.
-/// @param source     path of a TOML file, or `builtin:NAME`
-/// @param overrides  `table.key=value` in TOML syntax; a bare word is taken as a string; `sheet.KEY` sets every sheet
-/// @throws InputError with file, line, column, key, value and expectation for the first fault.
-Scene read_scene(const std::string& source, std::span<const std::string> overrides);
-
-/// Reads and checks a scene whose text is at hand, such as that which a run keeps.
-/// @param source  where the text once stood: file names in it are resolved against its folder
-/// @throws InputError as read_scene
-Scene read_scene_text(const std::string& text, const std::string& source);
-
-struct SceneInfo {
-    std::string name;
-    std::string summary;
-    std::vector<std::string> parameters;  ///< Keys that are commonly overridden.
-};
-
-/// Returns the built-in scenes, sorted by name.
-std::vector<SceneInfo> builtin_scenes();
-
-/// Returns the documentation of every scene key as text, one line per key.
-std::string scene_schema_text();
-
-/// Returns the documentation of every scene key as JSON text.
-std::string scene_schema_json();
 
 }  // namespace selvage

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "io/number_text.hpp"
+#include "io/scene/fabric_table.hpp"
 
 namespace selvage {
 namespace {

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "io/number_text.hpp"
+#include "io/scene/fabric_table.hpp"
 #include "io/scene/scene.hpp"
+#include "io/scene/scene_schema.hpp"
 
 namespace selvage {
 namespace {

@@ -11,6 +11,8 @@
 #include "host/scene/scene_model.hpp"
 #include "host/scene/scene_phase.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
+#include "io/scene/fabric_table.hpp"
+#include "io/scene/read_scene.hpp"
 #include "validation/cases/cases.hpp"
 #include "validation/measure/drape_shape.hpp"
 #include "validation/measure/reference.hpp"

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/solver/stepping/integrator.hpp"
 #include "host/solver/stepping/phase.hpp"
 #include "host/solver/stepping/step_control.hpp"

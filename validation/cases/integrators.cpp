@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "host/model/cloth_model.hpp"
+#include "host/solver/terms/cloth_state.hpp"
 #include "validation/cases/cases.hpp"
 #include "validation/measure/oscillator.hpp"
 #include "validation/measure/reference.hpp"

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "host/model/cloth_model.hpp"
 #include "validation/measure/specimen.hpp"
 
 namespace selvage {

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/model/cloth_model.hpp"
 #include "host/solver/stepping/integrator.hpp"
 #include "host/solver/stepping/phase.hpp"
 

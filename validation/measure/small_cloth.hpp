@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "host/collision/ccd.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/state/topology.hpp"
 #include "host/solver/terms/cloth_state.hpp"

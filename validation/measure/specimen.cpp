@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "host/mesh/sheet_families.hpp"
+#include "host/solver/terms/cloth_state.hpp"
 #include "validation/measure/direct_solver.hpp"
 
 namespace selvage {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "host/model/body.hpp"
 #include "host/parallel/launch.hpp"
 #include "host/solver/contact/fabric_contact.hpp"
 

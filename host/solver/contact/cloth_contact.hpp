@@ -8,7 +8,7 @@
 #include "host/collision/ccd.hpp"
 #include "host/collision/cloth_tree.hpp"
 #include "host/mesh/self_intersections.hpp"
-#include "host/scene/body_shapes.hpp"
+#include "host/model/body.hpp"
 #include "host/solver/state/state.hpp"
 #include "host/solver/state/topology.hpp"
 #include "host/solver/terms/params.hpp"
@@ -172,8 +172,5 @@ TreeSurface tree_surface(const Topology& topology, const Cloth& cloth);
 
 /// Adds the surfaces of bodies to it.
 void add_bodies(TreeSurface& surface, const std::vector<Body>& bodies);
-
-/// Mean length of the first edges of all faces [m].
-double typical_edge(const Cloth& cloth);
 
 }  // namespace selvage

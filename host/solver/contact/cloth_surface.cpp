@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "host/model/body.hpp"
 #include "host/solver/contact/cloth_contact.hpp"
 
 namespace selvage {
@@ -43,15 +44,6 @@ bool is_convex(const Cloth& cloth, const ClothPanel& panel)
 }
 
 }  // namespace
-
-double typical_edge(const Cloth& cloth)
-{
-    double total = 0;
-    for (const Face& f : cloth.faces)
-        for (int k = 0; k < 3; ++k)
-            total += (cloth.panel_coordinates[f[k]] - cloth.panel_coordinates[f[(k + 1) % 3]]).norm();
-    return cloth.faces.empty() ? 0.01 : total / (3 * double(cloth.faces.size()));
-}
 
 TreeSurface tree_surface(const Topology& topology, const Cloth& cloth)
 {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/parallel/launch.hpp"
 
 namespace selvage {

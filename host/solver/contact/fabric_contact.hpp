@@ -2,6 +2,8 @@
 #include <vector>
 
 #include "host/collision/body_query.hpp"
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/solver/contact/body_contact.hpp"
 #include "host/solver/state/topology.hpp"
 

@@ -1,4 +1,5 @@
 // The linear solver of the implicit steps. Built twice, with SELVAGE_LINEAR = float and double.
+#include "host/parallel/launch.hpp"
 #include "host/solver/linear/linear_solver.hpp"
 
 #include <optional>

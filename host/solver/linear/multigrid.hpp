@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "host/parallel/launch.hpp"
 #include "host/solver/linear/block_matrix.hpp"
 
 namespace selvage {

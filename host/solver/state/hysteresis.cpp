@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "host/model/cloth_model.hpp"
 #include "host/solver/state/plate_mesh.hpp"
 
 namespace selvage {

@@ -1,4 +1,5 @@
 #pragma once
+#include "host/model/cloth_model.hpp"
 #include "host/solver/state/topology.hpp"
 
 namespace selvage {

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "host/model/cloth_model.hpp"
+
 namespace selvage {
 namespace {
 

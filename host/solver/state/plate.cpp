@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "host/model/cloth_model.hpp"
 #include "host/parallel/launch.hpp"
 #include "host/solver/state/plate_mesh.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "host/model/cloth_model.hpp"
 #include "host/solver/state/topology.hpp"
 
 namespace selvage {

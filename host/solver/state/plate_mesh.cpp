@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "host/model/cloth_model.hpp"
+
 namespace selvage {
 namespace {
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "host/model/cloth_model.hpp"
 #include "host/solver/state/topology.hpp"
 
 namespace selvage {

@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 
+#include "host/model/cloth_model.hpp"
+
 namespace selvage {
 namespace {
 
@@ -224,8 +226,6 @@ void add_springs(Topology& topology, const Cloth& cloth, const FabricTable& fabr
     }
     if (choice.bending) add_bend_springs(topology, faces, topology.springs);
 }
-
-SpringChoice springs_of(const Params& params) { return {params.spring.scale > 0, params.spring.bend_scale > 0}; }
 
 void fill_springs(State& state, const Topology& topology)
 {

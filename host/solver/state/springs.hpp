@@ -1,8 +1,9 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "host/model/cloth_model.hpp"
+#include "host/solver/state/state.hpp"
 #include "host/solver/state/topology.hpp"
-#include "host/solver/terms/params.hpp"
 
 namespace selvage {
 
@@ -38,9 +39,6 @@ constexpr double bend_spring_curvature = 50;
 ///
 /// A spring's limit is its elongation in cloth that is stretched both ways and sheared to the fabric's limits.
 void add_springs(Topology& topology, const Cloth& cloth, const FabricTable& fabrics, const SpringChoice& choice);
-
-/// The springs that a phase with these parameters runs on.
-SpringChoice springs_of(const Params& params);
 
 /// Copies the springs into an allocated state; does nothing where there are none.
 void fill_springs(State& state, const Topology& topology);

@@ -1,13 +1,10 @@
 #pragma once
 #include <array>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "host/model/cloth.hpp"
 #include "host/solver/state/spring.hpp"
 #include "host/solver/state/state.hpp"
-#include "io/scene/fabric.hpp"
 
 namespace selvage {
 
@@ -31,27 +28,5 @@ Topology make_topology(const Cloth& cloth, bool joined);
 /// Counts and padded strides of every kind of item.
 /// @param coupling_count  entries of the plate's matrix; 0 without one
 mesh_sizes topology_sizes(const Topology& topology, int material_count, int coupling_count = 0);
-
-/// Fabrics in the order of the state's material table.
-using FabricTable = std::map<std::string, Fabric>;
-
-/// Puts the particles of a filled state where the cloth is; pinned ones are at rest.
-/// Positions are set to the mass-weighted mean of the cloth vertices of each particle, velocities likewise, so that
-/// joining keeps the centre of mass and the momentum (B12).
-/// @param positions   per cloth vertex [m]
-/// @param velocities  per cloth vertex [m/s]; empty: at rest
-void place_particles(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
-                     const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
-
-/// Fills the rest data of an allocated state: masses, faces, hinges, stitches, materials and gather lists; then as
-/// above.
-void fill_state(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
-                const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
-
-/// Returns the position [m] or velocity [m/s] of every cloth vertex from a particle field with three components.
-std::vector<Vec3> cloth_vectors(const Topology& topology, const mesh_sizes& size, const std::vector<real>& field);
-
-/// Inverse of the rest edge matrix of a face, by rows: (weft, warp) weights of corners 1 and 2 [1/m]; see membrane.h.
-std::array<double, 4> face_rest_weights(const Cloth& cloth, int face);
 
 }  // namespace selvage

@@ -76,10 +76,10 @@ public:
     }  ///< The last gradient, downhill, planes like pos [N].
 
     ActiveTerms& terms() { return terms_; }
-    double energy_of(std::string_view term) const { return terms_.energy_of(term); }     ///< [J]; 0 if inactive.
-    double bending_energy() const { return energy_of("bending") + energy_of("plate"); }  ///< Of whichever model [J].
-    double potential_energy() const { return terms_.potential_energy(); }                ///< [J]
-    double kinetic_energy() const { return terms_.kinetic_energy(); }                    ///< [J]
+    const ActiveTerms& terms() const { return terms_; }
+    double energy_of(std::string_view term) const { return terms_.energy_of(term); }  ///< [J]; 0 if inactive.
+    double potential_energy() const { return terms_.potential_energy(); }             ///< [J]
+    double kinetic_energy() const { return terms_.kinetic_energy(); }                 ///< [J]
 
 private:
     double objective();

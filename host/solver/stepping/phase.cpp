@@ -2,10 +2,14 @@
 
 #include <algorithm>
 
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/parallel/trace.hpp"
 #include "host/solver/state/hysteresis.hpp"
+#include "host/solver/state/rest_state.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/terms/cloth_state.hpp"
+#include "host/solver/terms/rules.hpp"
 
 namespace selvage {
 namespace {

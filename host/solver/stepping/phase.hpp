@@ -2,23 +2,16 @@
 #include <memory>
 #include <vector>
 
+#include "host/model/cloth_model.hpp"
 #include "host/solver/contact/fabric_contact.hpp"
 #include "host/solver/contact/pin_paths.hpp"
 #include "host/solver/linear/linear_solver.hpp"
+#include "host/solver/state/rest_state.hpp"
 #include "host/solver/state/topology.hpp"
 #include "host/solver/stepping/newton.hpp"
 #include "host/solver/terms/rules.hpp"
 
 namespace selvage {
-
-/// What all phases of a run share. The coarser cloths are the same panels at twice the edge length, and so on.
-struct ClothModel {
-    Cloth cloth;
-    std::vector<Cloth> coarser;       ///< Finest of them first; may be empty.
-    std::vector<Transfer> transfers;  ///< From coarser[k] to the next finer cloth.
-    FabricTable fabrics;
-    std::vector<Body> bodies;
-};
 
 struct PhaseOptions {
     Params params;

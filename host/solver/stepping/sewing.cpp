@@ -51,7 +51,7 @@ void pull_harder_if_stuck(Phase& phase, const SewingOptions& options, SewingProg
 
 void note_step(Phase& phase, SewingProgress& progress)
 {
-    const double energy = in_plane_energy(phase.newton()) + bending_energy(phase.newton());
+    const double energy = in_plane_energy(phase.newton().terms()) + bending_energy(phase.newton().terms());
     progress.gap = largest_gap(phase);
     progress.energy_change = std::abs(energy - progress.elastic_energy) / std::max(energy, 1e-12);
     progress.elastic_energy = energy;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host/parallel/launch.hpp"
+
 namespace selvage {
 namespace {
 

@@ -5,7 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "host/solver/stepping/integrators/vector_tools.hpp"
+#include "host/parallel/launch.hpp"
+#include "host/solver/state/vector_tools.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {

@@ -1,11 +1,33 @@
 #include "host/solver/terms/cloth_state.hpp"
 
+#include "host/model/cloth_model.hpp"
 #include "host/parallel/trace.hpp"
 #include "host/solver/state/hysteresis.hpp"
 #include "host/solver/state/plate.hpp"
+#include "host/solver/state/rest_state.hpp"
+#include "host/solver/terms/rules.hpp"
 #include "host/solver/terms/terms.hpp"
 
 namespace selvage {
+
+FieldSet required_fields(const Params& params)
+{
+    FieldSet fields = field_set({Field::pos, Field::vel, Field::mass, Field::inv_mass, Field::force});
+    for (const Term& term : all_terms())
+        if (term.is_active(params)) fields |= term.fields;
+    for (const Rule& rule : all_rules())
+        if (rule.is_active(params)) fields |= rule.fields;
+#define GATHER_FIELDS(kind, corners)                  \
+    if (fields[std::size_t(Field::kind##_force)]) {   \
+        fields.set(std::size_t(Field::kind##_slots)); \
+        fields.set(std::size_t(Field::kind##_slot));  \
+    }
+    GATHERED_KINDS(GATHER_FIELDS)
+#undef GATHER_FIELDS
+    return fields;
+}
+
+SpringChoice springs_of(const Params& params) { return {params.spring.scale > 0, params.spring.bend_scale > 0}; }
 
 State make_state(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics, const Params& params,
                  const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)

@@ -4,7 +4,6 @@
 
 #include "host/parallel/launch.hpp"
 #include "host/solver/state/pair_list.hpp"
-#include "host/solver/terms/rules.hpp"
 #include "kernels/stages/gather.h"
 
 namespace selvage {
@@ -89,12 +88,6 @@ Term describe()
                 }};
 }
 
-#define GATHER_FIELDS(kind, corners)                  \
-    if (fields[std::size_t(Field::kind##_force)]) {   \
-        fields.set(std::size_t(Field::kind##_slots)); \
-        fields.set(std::size_t(Field::kind##_slot));  \
-    }
-
 // Planes of a field of which only some items are to be cleared.
 void clear_items(std::vector<real>& field, int stride, const Items& items)
 {
@@ -156,17 +149,6 @@ std::string_view kind_name(ItemKind kind)
 {
     constexpr std::string_view names[] = {"vertex", "face", "hinge", "stitch", "spring", "pair"};
     return names[int(kind)];
-}
-
-FieldSet required_fields(const Params& params)
-{
-    FieldSet fields = field_set({Field::pos, Field::vel, Field::mass, Field::inv_mass, Field::force});
-    for (const Term& term : all_terms())
-        if (term.is_active(params)) fields |= term.fields;
-    for (const Rule& rule : all_rules())
-        if (rule.is_active(params)) fields |= rule.fields;
-    GATHERED_KINDS(GATHER_FIELDS)
-    return fields;
 }
 
 void clear_forces(State& state)

@@ -2,7 +2,7 @@
 #include <span>
 #include <string_view>
 
-#include "host/parallel/launch.hpp"
+#include "host/parallel/items.hpp"
 #include "host/solver/state/state.hpp"
 #include "host/solver/terms/params.hpp"
 
@@ -27,11 +27,6 @@ struct Term {
 
 /// Returns all terms, in the order of kernels/terms.h.
 std::span<const Term> all_terms();
-
-/// Returns the fields a scene with these parameters needs: positions, masses, and the union over its active
-/// terms and rules with their gather lists. A term whose strengths are all zero adds no field here and no launch to a
-/// step.
-FieldSet required_fields(const Params& params);
 
 /// The items of a kind that take part in the steps at present.
 Items items_of(const State& state, ItemKind kind);

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <initializer_list>
 
-#include "host/solver/linear/linear_solver.hpp"
 #include "host/solver/state/state.hpp"
 #include "host/solver/terms/terms.hpp"
 
@@ -14,26 +14,20 @@ enum class TermPart { value, force, stiffness };
 // during a pass: every array that a pass reads or writes counts once for each of the two, whole and without padding.
 // Scalars of the linear solver are doubles.
 
+/// Of one pass over whole fields of a state; what is not allocated counts nothing.
+std::size_t pass_bytes(const State& state, std::initializer_list<Field> fields);
+
 /// Of one function of a term, by its field list: fields of its own kind, vertex fields once for every vertex that its
 /// items touch, and the accumulators of that part read and written. 0 for the stiffness of a term that has none.
 std::size_t term_bytes(const Term& term, const State& state, TermPart part);
 
 std::size_t clear_forces_bytes(const State& state);     ///< Written.
 std::size_t clear_stiffness_bytes(const State& state);  ///< Written.
+std::size_t gather_list_bytes(const State& state);      ///< Which element and corner adds to which vertex, read.
 std::size_t gather_bytes(const State& state);  ///< Slot lists, element forces and the forces they are added to.
 std::size_t settle_friction_bytes(const State& state);
 std::size_t settle_hysteresis_bytes(const State& state);
 /// Of the query's arguments: positions, normals, offsets and bodies. What a search reads of the body is not counted.
 std::size_t body_query_bytes(const State& state);
-
-/// Element and vertex stiffness, gather lists, the matrix written, and the inverse diagonal blocks made from it.
-std::size_t assemble_bytes(const State& state, const BlockPattern& pattern);
-/// Of the whole product: the matrix, the couplings of plate hinges and the pairs in contact, which do not stand in it.
-std::size_t product_bytes(const State& state, const BlockPattern& pattern);
-std::size_t block_jacobi_bytes(const BlockPattern& pattern);
-std::size_t dot_bytes(const BlockPattern& pattern);
-std::size_t update_bytes(const BlockPattern& pattern);  ///< Of x += a p, r -= a q.
-/// Of one V-cycle: all passes of Multigrid::cycle over all levels, the coarse patterns being those of P^T A P.
-std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleTransfers& transfers);
 
 }  // namespace selvage

@@ -6,7 +6,9 @@
 
 #include "host/collision/body_query.hpp"
 #include "host/mesh/body_tessellation.hpp"
+#include "host/model/body.hpp"
 #include "host/scene/body_model.hpp"
+#include "io/scene/read_scene.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;

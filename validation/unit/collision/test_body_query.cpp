@@ -7,6 +7,7 @@
 
 #include "host/collision/body_query.hpp"
 #include "host/mesh/body_tessellation.hpp"
+#include "host/model/body.hpp"
 
 using namespace selvage;
 

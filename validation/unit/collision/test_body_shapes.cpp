@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "host/mesh/body_tessellation.hpp"
+#include "host/model/body.hpp"
 #include "host/scene/body_shapes.hpp"
 
 using namespace selvage;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "host/model/body.hpp"
 #include "host/solver/contact/cloth_contact.hpp"
 #include "validation/measure/crumpled_sheets.hpp"
 

@@ -7,6 +7,7 @@
 #include "io/mesh/body_mesh.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/pattern/pattern_json.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 #include "validation/unit/scratch_file.hpp"
 

@@ -4,8 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/scene/fabric_table.hpp"
 #include "io/scene/presets.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
+#include "io/scene/scene_schema.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;

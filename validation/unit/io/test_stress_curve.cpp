@@ -4,6 +4,10 @@
 #include <cmath>
 #include <random>
 
+#include "host/solver/state/rest_state.hpp"
+#include "host/solver/terms/cloth_state.hpp"
+#include "io/scene/fabric_table.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"

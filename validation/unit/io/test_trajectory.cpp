@@ -12,6 +12,7 @@
 #include "io/errors.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/describe.hpp"
+#include "io/run/hdf5_file.hpp"
 #include "io/run/progress.hpp"
 #include "io/run/summary.hpp"
 #include "io/run/trajectory.hpp"

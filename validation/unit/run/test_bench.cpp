@@ -13,6 +13,7 @@
 #include "bench/suites/skip_cases.hpp"
 #include "host/solver/terms/traffic.hpp"
 #include "io/errors.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 #include "io/version.hpp"
 #include "validation/unit/scratch_file.hpp"

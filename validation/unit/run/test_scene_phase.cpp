@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "host/scene/scene_phase.hpp"
+#include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 #include "validation/unit/scratch_file.hpp"
 

@@ -3,8 +3,12 @@
 #include <map>
 
 #include "host/mesh/self_intersections.hpp"
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/phase.hpp"
+#include "host/solver/terms/cloth_state.hpp"
+#include "io/scene/fabric_table.hpp"
 #include "validation/measure/crumpled_sheets.hpp"
 
 using namespace selvage;

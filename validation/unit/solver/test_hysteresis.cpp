@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "host/garment/sheet.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/scene/plan.hpp"
 #include "host/solver/contact/anchors.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
+#include "host/solver/terms/cloth_state.hpp"
+#include "io/scene/read_scene.hpp"
 #include "validation/measure/small_cloth.hpp"
 
 using namespace selvage;

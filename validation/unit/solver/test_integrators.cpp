@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "host/solver/stepping/integrators/vector_tools.hpp"
+#include "host/model/cloth_model.hpp"
+#include "host/solver/state/vector_tools.hpp"
 #include "host/solver/stepping/stability.hpp"
 #include "host/solver/stepping/step_control.hpp"
 #include "io/errors.hpp"

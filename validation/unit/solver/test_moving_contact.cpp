@@ -4,8 +4,11 @@
 #include <numbers>
 
 #include "host/garment/sheet.hpp"
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/phase.hpp"
+#include "io/scene/fabric_table.hpp"
 #include "validation/measure/small_cloth.hpp"
 
 using namespace selvage;

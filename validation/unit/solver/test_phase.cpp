@@ -2,10 +2,14 @@
 
 #include <cmath>
 
+#include "host/model/body.hpp"
+#include "host/model/cloth_model.hpp"
 #include "host/scene/plan.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/phase.hpp"
 #include "host/solver/stepping/sewing.hpp"
+#include "host/solver/terms/cloth_state.hpp"
+#include "io/scene/read_scene.hpp"
 #include "validation/measure/small_cloth.hpp"
 
 using namespace selvage;

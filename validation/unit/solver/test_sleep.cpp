@@ -3,6 +3,7 @@
 #include "host/scene/scene_model.hpp"
 #include "host/scene/scene_phase.hpp"
 #include "host/solver/stepping/sleep.hpp"
+#include "io/scene/read_scene.hpp"
 
 using namespace selvage;
 

@@ -3,10 +3,14 @@
 #include <cmath>
 #include <random>
 
+#include "host/model/cloth_model.hpp"
 #include "host/scene/plan.hpp"
+#include "host/solver/state/rest_state.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/phase.hpp"
+#include "host/solver/terms/cloth_state.hpp"
+#include "io/scene/read_scene.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"
 

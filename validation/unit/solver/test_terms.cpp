@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "host/solver/linear/linear_solver.hpp"
+#include "host/solver/terms/cloth_state.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"
 #include "validation/measure/stiffness.hpp"

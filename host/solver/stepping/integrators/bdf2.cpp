@@ -4,8 +4,9 @@
 // It ends beyond what was solved for, where cloth could have met itself: with such contact it is one of implicit Euler.
 // So it is after a rule has moved the state, since that happens step after step and the midpoint rule damps nothing.
 // Source: Gear 1971; Hairer, Norsett and Wanner 1993, ch. III.5 for variable steps.
+#include "host/parallel/launch.hpp"
+#include "host/solver/state/vector_tools.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
-#include "host/solver/stepping/integrators/vector_tools.hpp"
 #include "host/solver/stepping/phase.hpp"
 
 namespace selvage {

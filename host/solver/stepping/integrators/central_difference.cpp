@@ -8,6 +8,7 @@
 // Source: Fan, Zhou, Wang and Yuen 1998 (A7).
 #include <Eigen/Dense>
 
+#include "host/parallel/launch.hpp"
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
 

@@ -1,5 +1,6 @@
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 
+#include "host/parallel/launch.hpp"
 #include "host/solver/stepping/stability.hpp"
 
 namespace selvage {

@@ -1,6 +1,6 @@
 #pragma once
+#include "host/solver/state/vector_tools.hpp"
 #include "host/solver/stepping/integrator.hpp"
-#include "host/solver/stepping/integrators/vector_tools.hpp"
 #include "host/solver/stepping/phase.hpp"
 
 namespace selvage {

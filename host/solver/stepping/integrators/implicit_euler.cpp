@@ -1,7 +1,8 @@
 // m (v1 - v0) / dt = f(x1, v1),   x1 = x0 + dt v1
 // Source: Baraff and Witkin 1998 (D11).
+#include "host/parallel/launch.hpp"
+#include "host/solver/state/vector_tools.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
-#include "host/solver/stepping/integrators/vector_tools.hpp"
 #include "host/solver/stepping/phase.hpp"
 
 namespace selvage {

@@ -1,8 +1,9 @@
 // Half a step of implicit Euler, then as far again:
 //     m (vm - v0) / (dt/2) = f(xm, vm),   xm = x0 + dt/2 vm,   x1 = 2 xm - x0,   v1 = 2 vm - v0
 // Source: Hairer, Lubich and Wanner 2006, ch. II.1.
+#include "host/parallel/launch.hpp"
+#include "host/solver/state/vector_tools.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
-#include "host/solver/stepping/integrators/vector_tools.hpp"
 #include "host/solver/stepping/phase.hpp"
 
 namespace selvage {

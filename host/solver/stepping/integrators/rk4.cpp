@@ -4,6 +4,7 @@
 // its error, so the step is better than the estimate says.
 // In contact with bodies it gains energy: its order holds for smooth forces, and the tangent planes are not.
 // Source: Kutta 1901; the companion follows from the order conditions in Hairer, Norsett and Wanner 1993, ch. II.4.
+#include "host/parallel/launch.hpp"
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
 

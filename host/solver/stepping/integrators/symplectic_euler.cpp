@@ -1,5 +1,6 @@
 // v1 = v0 + dt a(x0, v0),   x1 = x0 + dt v1
 // Source: Provot 1995 (E8), where the new velocity moves the vertex.
+#include "host/parallel/launch.hpp"
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
 

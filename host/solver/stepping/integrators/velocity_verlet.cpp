@@ -2,6 +2,7 @@
 // a1 = a(x1, v0 + dt a0): where forces depend on velocity the predicted one keeps the second order. a1 serves the next
 // step, which errs by dt^2 times its change and so not in the order either.
 // Source: C4; Swope and others 1982.
+#include "host/parallel/launch.hpp"
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
 

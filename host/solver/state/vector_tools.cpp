@@ -1,14 +1,12 @@
-#pragma once
+#include "host/solver/state/vector_tools.hpp"
+
 #include <cmath>
-#include <vector>
 
 #include "host/parallel/launch.hpp"
-#include "host/solver/state/state.hpp"
 
 namespace selvage {
 
-/// Returns the largest distance of a vertex in `a` from itself in `b`; both are planes like state.pos.
-inline double largest_distance(const State& state, const std::vector<real>& a, const std::vector<real>& b)
+double largest_distance(const State& state, const std::vector<real>& a, const std::vector<real>& b)
 {
     const int vs = state.size.vertex_stride;
     return std::sqrt(max_items(state.size.vertex_count, [vs, x = a.data(), y = b.data()](int v) {
@@ -17,8 +15,7 @@ inline double largest_distance(const State& state, const std::vector<real>& a, c
     }));
 }
 
-/// Returns true if no position and no velocity is infinite or not a number.
-inline bool is_finite(const State& state)
+bool is_finite(const State& state)
 {
     return std::isfinite(sum_items(int(state.pos.size()), [x = state.pos.data(), v = state.vel.data()](int i) {
         return std::abs(x[i]) + std::abs(v[i]);

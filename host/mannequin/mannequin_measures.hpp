@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+
+#include "io/geometry.hpp"
+
+namespace selvage {
+
+/// Body measures of the built-in mannequin. Lengths in [m].
+struct MannequinMeasures {
+    double stature = 1.70;
+    double bust = 0.92;  ///< Tape girth at the bust line.
+    double waist = 0.74;
+    double hips = 1.00;
+    double shoulder_width = 0.40;  ///< Between the two shoulder points, straight across.
+    double neck = 0.35;            ///< Girth at half the neck's height.
+    double arm_length = 0.595;     ///< Shoulder point to wrist, along the arm in the A-pose.
+    double arm_angle = 45;         ///< Degrees below the horizontal: 0 is a T-pose, 45 an A-pose; 0 to 80.
+};
+
+/// Where things are on the mannequin, for placing garments. [m]; pairs are {left, right} of the wearer.
+struct MannequinLandmarks {
+    double bust_height = 0, waist_height = 0, hip_height = 0, crotch_height = 0, neck_height = 0;
+    double front = 0, back = 0;          ///< Least and greatest y of the torso.
+    Vec3 neck_base = Vec3::Zero();       ///< Centre of the neck where it leaves the shoulders.
+    std::array<Vec3, 2> neck_side;       ///< Where the shoulder line meets the neck, on the surface.
+    std::array<Vec3, 2> shoulder_point;  ///< Outer end of the shoulder line, on the surface.
+    std::array<Vec3, 2> shoulder_joint;  ///< Centre of the upper arm's rounded end.
+    std::array<Vec3, 2> armpit;          ///< On the surface, between arm and torso.
+    std::array<Vec3, 2> arm_direction;   ///< Unit vector from the shoulder joint along the arm.
+    std::array<Vec3, 2> wrist;           ///< Centre of the wrist.
+    double upper_arm_radius = 0;         ///< Largest section radius below the shoulder.
+    double wrist_radius = 0;
+};
+
+}  // namespace selvage
