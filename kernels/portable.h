@@ -4,8 +4,13 @@
 #ifdef __OPENCL_C_VERSION__
     #define GLOBAL __global
     #define RESTRICT restrict
+    #ifdef cl_khr_fp64
+typedef double real;
+typedef double3 vec3;  // dot, cross and length are built in
+    #else
 typedef float real;
-typedef float3 vec3;  // dot, cross and length are built in
+typedef float3 vec3;
+    #endif
     #define make_vec3(x, y, z) ((vec3)(x, y, z))
     #define larger fmax
     #define smaller fmin

@@ -273,7 +273,8 @@ class BadCommandLines(BadInput):
             ("builtin:stress_squeeze", "solver.until=1", r"body\[0\]", "velocity_rule"),
         ]:
             with self.subTest(override):
-                self.assert_refused(self.drape(scene, "--set", "contact.response=velocity_rule", "--set", override), *words)
+                result = self.drape(scene, "--set", "contact.response=velocity_rule", "--set", override)
+                self.assert_refused(result, *words)
 
     def test_bad_usage_ends_with_2(self):
         for arguments, word in [

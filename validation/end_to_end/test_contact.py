@@ -128,7 +128,8 @@ class Contact(unittest.TestCase):
         self.check_free("layers", self.layers)
 
     def test_runs_with_contact_repeat_bit_by_bit_and_threads_agree(self):
-        two, again, one = (self.drape(name, SPHERE, threads)[0] for name, threads in [("two", 2), ("again", 2), ("one", 1)])
+        runs = [("two", 2), ("again", 2), ("one", 1)]
+        two, again, one = (self.drape(name, SPHERE, threads)[0] for name, threads in runs)
         np.testing.assert_array_equal(two, again)
         difference = np.abs(two[-1] - one[-1]).max()
         print(f"one thread and two threads differ by {difference:.2e} m at the end")
@@ -141,7 +142,8 @@ class Contact(unittest.TestCase):
         skipped = {feature["name"]: feature["reason"] for feature in json.loads(result.stdout)["skipped"]}
         for term in ["cloth_contact", "cloth_friction"]:
             self.assertEqual(skipped.get(term), "contact.self is false")
-        result = subprocess.run([PROGRAM, "plan", "builtin:sphere", "--json"], capture_output=True, text=True, timeout=60)
+        result = subprocess.run([PROGRAM, "plan", "builtin:sphere", "--json"],
+                                capture_output=True, text=True, timeout=60)
         self.assertNotIn("cloth_contact", [feature["name"] for feature in json.loads(result.stdout)["skipped"]])
 
     def test_the_response_in_use_is_the_only_one_that_runs_and_repeats(self):
@@ -167,7 +169,8 @@ class Contact(unittest.TestCase):
         """With friction between layers: what it remembers is in the checkpoint."""
         expected, _ = self.drape("reference", self.layers)
         folder = self.path("killed")
-        process = subprocess.Popen(command(folder, self.layers, 1), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(command(folder, self.layers, 1),
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(process.wait)
         deadline = time.monotonic() + 120
         remembered = 0
@@ -176,7 +179,8 @@ class Contact(unittest.TestCase):
             try:
                 with h5py.File(os.path.join(folder, "checkpoint.h5"), "r") as file:
                     found = []
-                    file.visititems(lambda name, item: found.append(item.size) if name.endswith("pair_memory") else None)
+                    file.visititems(lambda name, item:
+                                    found.append(item.size) if name.endswith("pair_memory") else None)
                     remembered = max(found, default=0)
             except OSError:   # it is not there yet, or just being replaced
                 continue

@@ -1,4 +1,4 @@
-"""Runs with bodies and pins that move: what is written, and what --resume goes on from. Also what check finds crossed."""
+"""Runs with bodies and pins that move: what is written, what --resume goes on from, and what check finds crossed."""
 import json
 import os
 import subprocess

@@ -9,8 +9,8 @@ import h5py
 import numpy as np
 
 PROGRAM = os.environ.get("SELVAGE", "build/selvage")
-SCENE = ["builtin:hanging", "--set", "sheet.resolution=65", "--set", "solver.until=0.2", "--set", "output.picture=false",
-         "--threads", "2", "--quiet"]
+SCENE = ["builtin:hanging", "--set", "sheet.resolution=65", "--set", "solver.until=0.2",
+         "--set", "output.picture=false", "--threads", "2", "--quiet"]
 
 
 class Profile(unittest.TestCase):

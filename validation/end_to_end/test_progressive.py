@@ -17,7 +17,8 @@ CLOSE = 1e-4   # [m], a fifth of what one halving of the edge length moves
 
 
 def drape(folder, *options):
-    return subprocess.run([PROGRAM, "drape", *HANGING, "-o", folder, *options], capture_output=True, text=True, timeout=200)
+    return subprocess.run([PROGRAM, "drape", *HANGING, "-o", folder, *options],
+                          capture_output=True, text=True, timeout=200)
 
 
 def summary(folder):
@@ -59,7 +60,8 @@ class Progressive(unittest.TestCase):
             np.testing.assert_array_equal(rest(whole), rest(stopped))
 
     def test_what_cannot_start_coarse_says_why(self):
-        for scene, word in [("builtin:sphere", "solver.until"), ("builtin:tshirt", "garment"), ("builtin:cusick", "bodies")]:
+        reasons = {"builtin:sphere": "solver.until", "builtin:tshirt": "garment", "builtin:cusick": "bodies"}
+        for scene, word in reasons.items():
             with self.subTest(scene):
                 plan = subprocess.run([PROGRAM, "plan", scene, "--json"], capture_output=True, text=True, timeout=60)
                 reasons = {part["name"]: part["reason"] for part in json.loads(plan.stdout)["skipped"]}

@@ -10,7 +10,8 @@ PROGRAM = os.environ.get("SELVAGE", "build/selvage")
 
 
 def bench(suite, *options):
-    result = subprocess.run([PROGRAM, "bench", suite, "--json", "--", *options], capture_output=True, text=True, timeout=500)
+    result = subprocess.run([PROGRAM, "bench", suite, "--json", "--", *options],
+                            capture_output=True, text=True, timeout=500)
     assert result.returncode == 0, result.stderr
     return json.loads(result.stdout)
 
