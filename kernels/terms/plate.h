@@ -6,7 +6,7 @@
 // hinges around it, with the fabric's rigidities. Source: a curvature tensor per triangle as in Grinspun and others
 // 2006 and Morley 1971, the share of a hinge's turn that belongs to each side being matched to quadratic surfaces. The
 // projected stiffness drops M d2phi/dx2; what is left, J^T G J with the slopes J = dphi/dx, is never negative. It
-// reaches far: 37 blocks a row. The slots take only J^T W J, W diagonal (hinge_rigidity); the linear solver adds J^T (G
+// reaches far: 37 blocks a row. The slots take only J^T W J, W diagonal (plate_diagonal); the linear solver adds J^T (G
 // - W) J by hinge turns and moments, from the slopes that the stiffness function leaves behind.
 #pragma once
 #include "../hinge.h"
@@ -14,7 +14,7 @@
 #define plate_PARAMS(STRENGTH, PARAM) STRENGTH(scale, 0.0, "1", "multiplies every bending rigidity")
 // clang-format off
 #define plate_FIELDS(READ, ADD)                                                                              \
-    READ(pos) READ(inv_mass) READ(hinge_vertex) READ(hinge_rigidity) READ(hinge_rest_sine)                    \
+    READ(pos) READ(inv_mass) READ(hinge_vertex) READ(plate_diagonal) READ(hinge_rest_sine)                    \
     READ(coupling_slots) READ(coupling_hinge) READ(coupling_rigidity) ADD(hinge_bend) ADD(hinge_slope)        \
     ADD(hinge_force) ADD(hinge_stiffness)
 // clang-format on
@@ -53,7 +53,7 @@ KERNEL_FN void plate_stiffness(int hinge, const plate_args* a)
 {
     int hs = a->size.hinge_stride;
     hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
-    real along = a->scale * a->hinge_rigidity[hinge] * h.cosine * h.cosine, turn = 0;
+    real along = a->scale * a->plate_diagonal[hinge] * h.cosine * h.cosine, turn = 0;
     mat3 t[4][4];
     if (!a->mode.projected) {
         real moment = plate_moment(hinge, a);

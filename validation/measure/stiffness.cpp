@@ -51,7 +51,7 @@ SparseMatrix couplings(const State& state)
             slopes.emplace_back(h, 3 * state.hinge_vertex[c / 3 * hs + h] + c % 3, state.hinge_slope[12 * h + c]);
         for (int k = state.coupling_slots[h]; k < state.coupling_slots[hs + h]; ++k)
             rest.emplace_back(h, state.coupling_hinge[k], state.coupling_rigidity[k]);
-        rest.emplace_back(h, h, -state.hinge_rigidity[h]);
+        rest.emplace_back(h, h, -state.plate_diagonal[h]);
     }
     SparseMatrix j(hinges, n), g(hinges, hinges);
     j.setFromTriplets(slopes.begin(), slopes.end());

@@ -140,7 +140,7 @@ private:
         const State& s = *state_;
         const couple_args args{s.hinge_vertex.data(),
                                s.hinge_slope.data(),
-                               s.hinge_rigidity.data(),
+                               s.plate_diagonal.data(),
                                s.coupling_slots.data(),
                                s.coupling_hinge.data(),
                                s.coupling_rigidity.data(),

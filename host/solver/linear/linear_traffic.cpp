@@ -79,7 +79,7 @@ std::size_t product_bytes(const State& state, const BlockPattern& pattern)
     if (!state.coupling_slots.empty()) {
         // Turns from slopes, moments from turns, and what these do to vertices; turns and moments are written and read.
         const std::size_t per_hinge = std::size_t(state.size.hinge_count) * sizeof(double);
-        total += pass_bytes(state, {Field::hinge_vertex, Field::hinge_slope, Field::hinge_rigidity,
+        total += pass_bytes(state, {Field::hinge_vertex, Field::hinge_slope, Field::plate_diagonal,
                                     Field::coupling_slots, Field::coupling_hinge, Field::coupling_rigidity,
                                     Field::hinge_slots, Field::hinge_slot, Field::hinge_slope}) +
                  4 * per_hinge + 3 * vector;

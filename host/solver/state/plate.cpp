@@ -213,7 +213,7 @@ void fill_plate(State& state, const PlateMatrix& plate)
     for (int h = 0; h < int(plate.own.size()); ++h) {
         state.coupling_slots[h] = plate.row_begin[h];
         state.coupling_slots[hs + h] = plate.row_begin[std::size_t(h) + 1];
-        state.hinge_rigidity[h] = plate.own[h];
+        state.plate_diagonal[h] = plate.own[h];
     }
     std::copy(plate.column.begin(), plate.column.end(), state.coupling_hinge.begin());
     std::copy(plate.entry.begin(), plate.entry.end(), state.coupling_rigidity.begin());
