@@ -4,7 +4,7 @@
 
 namespace selvage {
 
-/// What a bodice adds to the body's measures [m].
+/// The dimensions of a bodice beyond the body's measures [m].
 struct BodiceStyle {
     double bust_ease = 0.14;       ///< Girth at the underarm beyond the bust.
     double length = 0.72;          ///< From the neck end of the shoulder down to the hem.
@@ -16,7 +16,7 @@ struct BodiceStyle {
     double armhole_drop = 0.030;  ///< Of the underarm below the armpit.
 };
 
-/// What a sleeve adds to the arm's measures [m].
+/// The dimensions of a sleeve beyond the arm's measures [m].
 struct SleeveStyle {
     double ease = 0.12;    ///< Girth beyond the upper arm's.
     double length = 0.21;  ///< Underarm to hem.

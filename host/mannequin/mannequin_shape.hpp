@@ -16,8 +16,9 @@ public:
     double operator()(const Vec3& point) const;  ///< Signed distance [m], first order; negative inside.
     double trunk(const Vec3& point) const;       ///< The same without arms and hands.
 
-    /// Where a point of the surface goes when the arms turn about the shoulder joints: arms whole, the trunk not at
-    /// all, and smoothly in between. @param arm_angle  new angle below the horizontal [degrees]
+    /// Returns where a point of the surface moves when the arms turn about the shoulder joints. The arms turn by the
+    /// full angle, the trunk not at all, with a smooth transition in between.
+    /// @param arm_angle  new angle below the horizontal [degrees]
     Vec3 with_arms_at(double arm_angle, const Vec3& point) const;
 
     BodyPart part(const Vec3& point) const;  ///< Part to which a point on the surface belongs.
@@ -25,7 +26,7 @@ public:
     /// Tape girth [m] of the trunk at a height [m]: the perimeter of the section's convex hull.
     double girth(double height) const;
 
-    /// First point outside along a ray that starts inside, or after `reach` [m].
+    /// Returns the first point outside along a ray that starts inside, but at most `reach` [m] away.
     Vec3 exit_point(const Vec3& start, const Vec3& direction, double reach) const;
 
     MannequinLandmarks landmarks() const;

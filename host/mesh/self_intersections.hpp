@@ -6,7 +6,7 @@
 
 namespace selvage {
 
-/// Two triangles that meet, by their indices.
+/// The indices of two triangles that intersect.
 using IntersectingPair = TrianglePair;
 
 /// Finds every pair of a mesh's triangles that intersect, by exact predicates. Pairs that share a corner count if an
@@ -15,7 +15,7 @@ using IntersectingPair = TrianglePair;
 /// @returns pairs with the smaller index first, sorted
 std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces);
 
-/// A mesh that others are tested against, again and again.
+/// A mesh whose tree is built once, for repeated intersection tests with other meshes.
 class IntersectionTarget {
 public:
     explicit IntersectionTarget(TriangleMesh mesh);

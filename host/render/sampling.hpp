@@ -24,9 +24,9 @@ inline std::uint32_t mixed_bits(std::uint32_t bits)
     return bits ^ (bits >> 16);
 }
 
-/// Evenly spread points of the unit disc for every pixel, such that the pixels of a 4 x 4 block together have one
-/// set 16 times as fine: averaging over any such block leaves little noise (Keller and Heidrich 2001, Interleaved
-/// Sampling).
+/// Evenly spread sample points of the unit disc for every pixel. The points of the pixels of a 4 x 4 block together are
+/// one set that is 16 times as fine, so that averaging over any such block leaves little noise. Source: Keller and
+/// Heidrich 2001, Interleaved Sampling.
 class InterleavedSamples {
 public:
     static constexpr int block = 4;  ///< [pixels]
