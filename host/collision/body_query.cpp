@@ -55,7 +55,7 @@ struct Mover {
     Box box;     // around the body at time 0
     bool plane;  // an infinite plane, which a rotation displaces without bound
     Placement now, before;
-    std::vector<Vec3> vertices_before;  // of a body that deforms
+    std::vector<Vec3> vertices_before;  // before the last move, of a body that deforms
     bool moved;                         // in the last move
 };
 

@@ -60,9 +60,9 @@ struct TreeCounts {
 /// positions, so ranges of F that include both ends of a move hold during the whole move. This is a rigorous form of
 /// the test on cones of normals.
 ///
-/// A new move needs no search under two conditions. At its start, and again at its end, every corner is within its
-/// slack of its position at some moment of the searched move, which is the same moment for all corners; positions are
-/// relative to a frame that moves with the cloth. Every skipped subtree still passes the test of flatness.
+/// A new move needs no search under two conditions. First, at its start, and again at its end, every corner is within
+/// its slack of its position at some moment of the searched move, which is the same moment for all corners; positions
+/// are relative to a frame that moves with the cloth. Second, every skipped subtree still passes the test of flatness.
 class ClothTree {
 public:
     /// @param slack  distance by which corners may deviate from the searched move without a new search [m]
@@ -109,19 +109,19 @@ private:
     struct Node {
         int right = 0;                       // second child, the first comes next; 0: a leaf
         int first = 0, count = 0;            // its faces, in tree order
-        int patch = -1;                      // -1: several
+        int patch = -1;                      // of its faces; -1: several
         bool may_be_flat = false;            // its piece of the panel is convex
         int first_near = 0, near_count = 0;  // leaves: range of near_
     };
     using NodePair = std::array<int, 2>;
-    static constexpr int leaf_faces = 4;  // at most
+    static constexpr int leaf_faces = 4;  // at most; affects speed only; chosen by hand, not measured
     struct FacesNear {
         std::array<int, leaf_faces> face;
         int count = 0;
     };
     struct Cell {  // rectangle of a panel that a node covers, and what overlaps it
         Vec2 low, high;
-        std::vector<int> faces, outline;  // outline: index into outline_
+        std::vector<int> faces, outline;  // outline: indices into PatchBuild::outline
     };
     struct PatchBuild;
 
@@ -164,7 +164,7 @@ private:
     std::vector<int> near_;                      // per leaf: faces that overlap its cell, enlarged by the largest face
     std::vector<std::uint8_t> owned_;            // per face: bits 0-2 mark the corners that it owns
     std::vector<std::array<int, 3>> own_edges_;  // per face: the edges that it owns, -1 where another face does
-    std::vector<std::array<int, 2>> edges_;      // their corners
+    std::vector<std::array<int, 2>> edges_;      // corners of each edge
     std::vector<std::array<double, 4>> rest_inverse_;
 
     std::vector<Vec3> start_, end_;                    // of each corner in the moving frame, particles first
@@ -175,7 +175,7 @@ private:
     std::vector<int> skipped_;    // nodes skipped as flat
     std::vector<char> is_awake_;  // per particle; empty: all are
     std::vector<char> face_sleeps_, node_sleeps_;
-    std::vector<PairCandidate> asleep_;  // candidates all of whose corners stand still
+    std::vector<PairCandidate> asleep_;  // candidates all of whose corners sleep
     double reach_ = 0, body_reach_ = 0;
     int body_version_ = -1;
     bool valid_ = false;

@@ -36,7 +36,7 @@ private:
     /// Factors on the drawn sections, found by calibrate().
     struct Factors {
         double bust = 1, waist = 1, hips = 1, neck = 1;
-        double joint_x = 0;  ///< Of the shoulder joint [m].
+        double joint_x = 0;  ///< x of the shoulder joint [m].
     };
 
     void draw();
@@ -56,7 +56,7 @@ private:
     Factors factors_;
     double scale_ = 1;        ///< Stature over that of the drawing.
     double arm_scale_ = 1;    ///< Girth of the arms over that of the drawing.
-    double hand_offset_ = 0;  ///< Of the hand from the arm's axis, outwards.
+    double hand_offset_ = 0;  ///< Outward offset of the hand from the arm's axis [m].
     Vec3 joint_ = Vec3::Zero(), along_ = Vec3::Zero(), outer_ = Vec3::Zero();
     SectionTube torso_, neck_, arm_, thumb_, leg_, foot_;
 };

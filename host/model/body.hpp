@@ -24,7 +24,7 @@ struct Body {
     std::shared_ptr<const BodyMotion> motion;                    ///< Null: it stands still.
 };
 
-/// The surface of a body at a time [s].
+/// Returns the surface of a body at a time [s].
 TriangleMesh body_mesh_at(const Body& body, double time);
 
 /// True if any of the bodies moves.

@@ -13,8 +13,8 @@ struct ClothPanel {
     std::string fabric;  ///< Key into Scene::fabrics.
     int first_vertex = 0, vertex_count = 0;
     int first_face = 0, face_count = 0;
-    double rest_area = 0;      ///< Of the exact outline's triangulation [m^2].
-    double rest_boundary = 0;  ///< Length of its boundary polygon [m].
+    double rest_area = 0;      ///< Area of the triangulated outline [m^2].
+    double rest_boundary = 0;  ///< Length of the boundary polygon [m].
     bool reversed = false;     ///< Its outside is the side from which the faces look clockwise.
 };
 
@@ -59,13 +59,13 @@ struct Cloth {
     std::vector<std::string> warnings;           ///< Unusual input that could be used.
 };
 
-/// The faces of a cloth wound counter-clockwise as seen from its outside, in the order of Cloth::faces.
+/// Returns the faces of a cloth, counter-clockwise as seen from its outside, in the order of Cloth::faces.
 std::vector<Face> outward_faces(const Cloth& cloth);
 
 /// Appends the panels, seams and pins of another cloth, with its indices shifted.
 void append_cloth(Cloth& to, const Cloth& other);
 
-/// Mean length of the edges of all faces at rest [m]; 0.01 without faces.
+/// Returns the mean length of the edges of all faces at rest [m]; 0.01 without faces.
 double typical_edge(const Cloth& cloth);
 
 /// A prolongation: linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.

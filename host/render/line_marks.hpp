@@ -7,7 +7,7 @@
 
 namespace selvage {
 
-/// Lines drawn on a mesh along pairs of its vertices: which of them pass near each face.
+/// Lines drawn on a mesh between pairs of its vertices, with a list of the lines near each face.
 class LineMarks {
 public:
     LineMarks() = default;

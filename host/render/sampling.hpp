@@ -48,7 +48,8 @@ public:
     }
 
 private:
-    // The first two dimensions of Sobol's sequence: aligned blocks of 2^k points are stratified in every way.
+    // Returns a point of the first two dimensions of Sobol's sequence, of which every aligned block of 2^k points has
+    // exactly one point in every elementary interval of area 2^-k.
     static std::array<float, 2> digital_point(std::uint32_t index)
     {
         std::uint32_t x = 0, y = 0, direction = 1u << 31;
