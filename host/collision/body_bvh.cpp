@@ -13,7 +13,7 @@
 namespace selvage {
 namespace {
 
-constexpr double rounding = 1e-6;    // of a length, in single precision, with a wide margin
+constexpr double rounding = 1e-6;    // relative, of lengths in single precision (6e-8), with a wide margin [1]
 constexpr double on_surface = 1e-9;  // [m]; a path may start this far inside and still enter
 
 struct Corners {
@@ -56,7 +56,8 @@ struct EntrySearch {
     SurfaceEntry first;
 };
 
-/// Notes the hit if the path enters there, and rejects it so that the ray goes on to every other triangle.
+/// Embree's filter of hits: stores the hit if the path enters the body there, and rejects it, so that the ray also
+/// visits all other triangles.
 void note_entry(const RTCFilterFunctionNArguments* args)
 {
     args->valid[0] = 0;
@@ -98,7 +99,7 @@ struct BodyBvh::Impl {
     double extent = 0;           // largest distance of a triangle from the origin [m]
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    float* vertex = nullptr;  // the hierarchy's own, nine per triangle
+    float* vertex = nullptr;  // owned by the hierarchy, nine numbers per triangle
 
     ~Impl() { rtcReleaseScene(scene); }
     void read_corners();
@@ -145,7 +146,7 @@ BodyBvh::BodyBvh(const EmbreeDevice& device, const BodySurface& surface, const B
     impl_->read_corners();
     const RTCDevice rtc = impl_->device = static_cast<RTCDevice>(device.handle());
     impl_->scene = rtcNewScene(rtc);
-    // Only the two-level hierarchies of dynamic scenes are refitted.
+    // Embree refits only the two-level hierarchies of dynamic scenes.
     rtcSetSceneFlags(impl_->scene,
                      deforms ? RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC) : RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, deforms ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
@@ -209,7 +210,8 @@ SurfaceEntry BodyBvh::first_entry(const Vec3& x0, const Vec3& x1) const
     EntrySearch search{{}, impl_->surface, impl_->triangles.data(), x0, x1, {}};
     const double length = (x1 - x0).norm();
     if (!(length > 0)) return search.first;
-    // Longer by the rounding at both ends; whether a triangle near an end counts is decided in double precision.
+    // The ray is longer than the path by the rounding error at both ends. Whether a triangle near an end counts is
+    // decided in double precision.
     const double slack = impl_->slack(x0);
     const Vec3 direction = (x1 - x0) / length, origin = x0 - slack * direction - impl_->origin;
 

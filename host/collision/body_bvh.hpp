@@ -30,19 +30,19 @@ struct SurfaceEntry {
     double fraction = 2;  ///< Of the path, in [0, 1].
 };
 
-/// A bounding volume hierarchy over the triangles of one body that touch a box.
-/// The hierarchy is in single precision and only selects; distances and fractions are computed in double precision,
-/// with ties broken by the triangle's index, so results depend neither on the hierarchy nor on hints.
+/// A bounding volume hierarchy over the triangles of one body that touch a box. The hierarchy is in single precision
+/// and only selects candidates. Distances and fractions are computed in double precision, with ties broken by the
+/// triangle's index, so results depend neither on the hierarchy nor on hints.
 class BodyBvh {
 public:
     /// @param surface  must outlive this object
-    /// @param deforms  the surface will change and `refit` be called: built so that this is quick
+    /// @param deforms  the surface will change, so the hierarchy is built for fast refits
     BodyBvh(const EmbreeDevice& device, const BodySurface& surface, const Box& reach, bool deforms = false);
     ~BodyBvh();
     BodyBvh(BodyBvh&&) noexcept;
     BodyBvh& operator=(BodyBvh&&) noexcept;
 
-    /// Takes over the places to which the surface's vertices have moved; the hierarchy keeps its shape.
+    /// Updates the boxes to the present vertices of the surface; the structure of the tree stays.
     void refit();
 
     int triangle_count() const;              ///< In the hierarchy.

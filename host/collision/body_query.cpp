@@ -17,9 +17,17 @@
 namespace selvage {
 namespace {
 
-constexpr int vertices_per_task = 256;
-constexpr double search_factor = 4;    // searching this many radii far lets a vertex be skipped for longer
-constexpr double reach_growth = 0.25;  // of the reach's diagonal, when it must be widened
+// Chosen by hand; not measured. All but motion_parts affect speed only.
+struct BodyQueryTuning {
+    static constexpr int vertices_per_task = 256;
+    // Range of a search over the contact radius [1]. A longer range gives vertices far from all bodies a larger lower
+    // bound of their distance, so that they are skipped for longer.
+    static constexpr double search_factor = 4;
+    static constexpr double reach_growth = 0.25;  // of a reach that is too small, over its diagonal [1]
+    // Parts of a step whose bounds of the displacement are summed, so that a body that turns far and comes back within
+    // the step is not taken for one at rest.
+    static constexpr int motion_parts = 4;
+};
 
 using VertexRange = tbb::blocked_range<int>;
 
@@ -40,16 +48,14 @@ struct AnalyticBody {
     analytic_body shape, at_start;
 };
 
-constexpr int steps_per_look = 4;  // parts of a time whose ways are added up, so that no turn is missed
-
 /// A body that moves: where it is and where it was before the last move.
 struct Mover {
     int body;
     std::shared_ptr<const BodyMotion> motion;
-    Box box;     // of the body as it starts
-    bool plane;  // infinite: turning moves it without bound
+    Box box;     // around the body at time 0
+    bool plane;  // an infinite plane, which a rotation displaces without bound
     Placement now, before;
-    std::vector<Vec3> vertices_before;  // of a body that deforms
+    std::vector<Vec3> vertices_before;  // before the last move, of a body that deforms
     bool moved;                         // in the last move
 };
 
@@ -122,7 +128,7 @@ struct BodyQuery::Impl {
     std::vector<Mover> movers;
     std::vector<int> mover_of;  // per body; -1: it stands still
     double time = 0;
-    double travel = 0;  // bound of the way of any surface point in all moves [m]
+    double travel = 0;  // upper bound of the path length of any surface point so far [m]
 
     // What is known about each vertex from its last search.
     std::vector<Vec3> last_position;
@@ -140,10 +146,10 @@ struct BodyQuery::Impl {
         return mesh.mover < 0 ? direction : Vec3(movers[mesh.mover].now.linear() * direction);
     }
     std::vector<MeshBody> build(const Box& box) const;
-    void cover(const Box& needed);
+    void extend_reach(const Box& needed);
     Nearest search(const Vec3& x, double radius, int hint_body, int hint_triangle) const;
     bool update(int vertex, const Vec3& x, double radius, const ContactPlanes& planes);
-    void note_surface(int vertex, const Vec3& x);
+    void store_surface(int vertex, const Vec3& x);
     void add_mover(int index, const Body& body);
     void move(Mover& mover, double to);
     Vec3 carried(const Mover& mover, int vertex, const Vec3& point) const;
@@ -157,18 +163,18 @@ std::vector<MeshBody> BodyQuery::Impl::build(const Box& box) const
     constexpr double far = std::numeric_limits<double>::max();
     const Box everywhere(Vec3::Constant(-far), Vec3::Constant(far));
     for (const auto& [body, surface] : surfaces) {
-        const int mover = mover_of[body];  // of what moves all may come within reach
+        const int mover = mover_of[body];  // any part of a moving body may come within reach
         const bool deforms = mover >= 0 && movers[mover].motion->deforms();
         built.push_back({body, &surface, BodyBvh(*device, surface, mover < 0 ? box : everywhere, deforms), mover});
     }
     return built;
 }
 
-void BodyQuery::Impl::cover(const Box& needed)
+void BodyQuery::Impl::extend_reach(const Box& needed)
 {
     if (counts.triangles_used == counts.triangles_total || needed.isEmpty() || reach.contains(needed)) return;
     const Box all = reach.merged(needed);
-    reach = grown(all, reach_growth * all.diagonal().norm());
+    reach = grown(all, BodyQueryTuning::reach_growth * all.diagonal().norm());
     meshes = build(reach);
     counts.triangles_used = 0;
     for (const MeshBody& mesh : meshes) counts.triangles_used += mesh.bvh.triangle_count();
@@ -177,7 +183,7 @@ void BodyQuery::Impl::cover(const Box& needed)
 
 Nearest BodyQuery::Impl::search(const Vec3& x, double radius, int hint_body, int hint_triangle) const
 {
-    const double search_radius = search_factor * radius;
+    const double search_radius = BodyQueryTuning::search_factor * radius;
     Nearest best;
     best.lower_bound = search_radius;
     const auto closer = [&](int body, double signed_distance) {
@@ -211,8 +217,8 @@ Nearest BodyQuery::Impl::search(const Vec3& x, double radius, int hint_body, int
     return best;
 }
 
-/// Notes what it takes to go with the surface that was found for a vertex.
-void BodyQuery::Impl::note_surface(int vertex, const Vec3& x)
+/// Stores what `carried` needs to move a point with the surface that was found for a vertex.
+void BodyQuery::Impl::store_surface(int vertex, const Vec3& x)
 {
     last_travel[vertex] = travel;
     const int body = last_body[vertex], triangle = last_triangle[vertex];
@@ -228,7 +234,7 @@ void BodyQuery::Impl::add_mover(int index, const Body& body)
     mover_of.back() = int(movers.size());
     Box box;
     for (const Vec3& x : body.mesh.vertices) box.extend(x);
-    // The tessellation of a closed form lies within it.
+    // The box is enlarged, since the tessellation of a sphere or capsule lies inside the exact surface.
     movers.push_back({index,
                       body.motion,
                       grown(box, 0.01 * box.diagonal().norm()),
@@ -263,7 +269,7 @@ void BodyQuery::Impl::move(Mover& mover, double to)
     }
 }
 
-/// Answers for one vertex; returns whether that took a search.
+/// Writes the contact plane of one vertex; returns whether a search was necessary.
 bool BodyQuery::Impl::update(int vertex, const Vec3& x, double radius, const ContactPlanes& planes)
 {
     const double surfaces_moved = movers.empty() ? 0 : travel - last_travel[vertex];
@@ -278,11 +284,12 @@ bool BodyQuery::Impl::update(int vertex, const Vec3& x, double radius, const Con
     lower_bound[vertex] = nearest.lower_bound;
     last_body[vertex] = nearest.body;
     last_triangle[vertex] = nearest.triangle;
-    if (!movers.empty()) note_surface(vertex, x);
+    if (!movers.empty()) store_surface(vertex, x);
     return true;
 }
 
-// Where the last move took a point of a body, or of what goes with the surface of one that deforms.
+// Returns where the last move took a point that is attached to a body, or to the triangle last found for the vertex if
+// the body deforms.
 Vec3 BodyQuery::Impl::carried(const Mover& mover, int vertex, const Vec3& point) const
 {
     Vec3 local = mover.before.inverse() * point;
@@ -368,9 +375,9 @@ double BodyQuery::longest_step(double time, double room, double way) const
     const auto too_far = [&](double dt) {
         return std::any_of(impl_->movers.begin(), impl_->movers.end(), [&](const Mover& mover) {
             double sum = 0;
-            for (int k = 0; k < steps_per_look; ++k)
-                sum += mover.motion->distance(time + k * dt / steps_per_look, time + (k + 1) * dt / steps_per_look,
-                                              mover.box);
+            for (int k = 0; k < BodyQueryTuning::motion_parts; ++k)
+                sum += mover.motion->distance(time + k * dt / BodyQueryTuning::motion_parts,
+                                              time + (k + 1) * dt / BodyQueryTuning::motion_parts, mover.box);
             return sum > way;
         });
     };
@@ -409,9 +416,9 @@ void BodyQuery::nearest(const double* position, int stride, int count, double ra
             impl_->last_weights.resize(count, Vec3::Zero());
         }
     }
-    impl_->cover(grown(bounding_box(position, stride, count), search_factor * radius));
+    impl_->extend_reach(grown(bounding_box(position, stride, count), BodyQueryTuning::search_factor * radius));
     const long long made = tbb::parallel_reduce(
-        VertexRange(0, count, vertices_per_task), 0LL,
+        VertexRange(0, count, BodyQueryTuning::vertices_per_task), 0LL,
         [&](const VertexRange& range, long long sum) {
             for (int v = range.begin(); v < range.end(); ++v)
                 sum += impl_->update(v, vertex_at(position, stride, v), radius, planes);
@@ -424,9 +431,9 @@ void BodyQuery::nearest(const double* position, int stride, int count, double ra
 
 std::vector<BodyCrossing> BodyQuery::crossings(const double* from, const double* to, int stride, int count)
 {
-    impl_->cover(bounding_box(from, stride, count).merged(bounding_box(to, stride, count)));
+    impl_->extend_reach(bounding_box(from, stride, count).merged(bounding_box(to, stride, count)));
     std::vector<BodyCrossing> found(count);
-    tbb::parallel_for(VertexRange(0, count, vertices_per_task), [&](const VertexRange& range) {
+    tbb::parallel_for(VertexRange(0, count, BodyQueryTuning::vertices_per_task), [&](const VertexRange& range) {
         for (int v = range.begin(); v < range.end(); ++v)
             found[v] = impl_->first_crossing(v, vertex_at(from, stride, v), vertex_at(to, stride, v));
     });
@@ -454,9 +461,9 @@ BodyGap BodyQuery::measure(const double* position, int stride, int count) const
         return smallest;
     };
     const GapSum sum = tbb::parallel_reduce(
-        VertexRange(0, count, vertices_per_task), GapSum(),
+        VertexRange(0, count, BodyQueryTuning::vertices_per_task), GapSum(),
         [&](const VertexRange& range, GapSum part) {
-            std::vector<int> hints(meshes.size(), -1);  // the previous vertex's triangle bounds the search
+            std::vector<int> hints(meshes.size(), -1);  // the triangle closest to the previous vertex bounds the search
             for (int v = range.begin(); v < range.end(); ++v) {
                 const double distance = signed_distance(vertex_at(position, stride, v), hints);
                 part.min_gap = std::min(part.min_gap, distance);

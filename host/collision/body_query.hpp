@@ -17,7 +17,7 @@ struct ContactPlanes {
     int* body = nullptr;       ///< Index of the body, one per vertex.
 };
 
-/// Makes the gap of a vertex without a contact larger than any real one [m].
+/// Makes the gap of a vertex without a contact larger than any real gap [m].
 inline constexpr double no_contact_offset = -1e9;
 
 /// The first place at which a path enters a body.
@@ -25,7 +25,7 @@ struct BodyCrossing {
     int body = -1;          ///< -1: the path enters no body.
     int triangle = -1;      ///< Face of the body's mesh; -1 for the closed forms.
     double fraction = 2;    ///< Of the path, in [0, 1].
-    double way_beyond = 0;  ///< Length of the path behind the entry [m].
+    double way_beyond = 0;  ///< Length of the path beyond the entry [m].
 };
 
 /// Distances of a cloth to the bodies, exact for the triangulated meshes and the closed forms.
@@ -40,65 +40,70 @@ struct BodyQueryCounts {
     long long skipped = 0;    ///< Vertex queries answered by a lower bound of the distance.
     int triangles_used = 0;   ///< In the hierarchies now.
     int triangles_total = 0;  ///< Of all mesh bodies.
-    int rebuilds = 0;         ///< How often the cloth left its reach.
+    int rebuilds = 0;         ///< How often the cloth left the reach.
 };
 
-/// Answers where a cloth is in relation to the bodies of a scene, which may move: they start where they are at time 0.
-/// A mesh that moves rigidly is asked in its own frame, one that deforms has its hierarchy refitted.
-/// Results do not depend on the thread count, nor on which queries were skipped.
+/// Finds the contacts of a cloth's vertices with the bodies of a scene and the entries of their paths into the
+/// bodies. Bodies may move; they start as they are at time 0. A mesh that moves rigidly is queried in its own
+/// frame, and one that deforms has its hierarchy refitted. Results depend neither on the thread count nor on which
+/// queries were skipped.
 class BodyQuery {
 public:
-    /// @param bodies  copied as far as needed; no device of the ray tracing library is made unless one is a mesh
-    /// @param reach   where the cloth is expected; only triangles that touch it are searched. A cloth that leaves it
-    ///                is noticed, and the reach is widened.
+    /// @param bodies  copied as far as needed; the ray tracing library is started only if one of them is a mesh
+    /// @param reach   box in which the cloth is expected; only triangles that touch it are searched. It is enlarged
+    ///                when the cloth leaves it.
     BodyQuery(const std::vector<Body>& bodies, const Box& reach);
     ~BodyQuery();
     BodyQuery(BodyQuery&&) noexcept;
     BodyQuery& operator=(BodyQuery&&) noexcept;
 
-    bool empty() const;  ///< No bodies: nothing needs to be asked.
+    bool empty() const;  ///< True without bodies.
     bool uses_embree() const;
     const BodyQueryCounts& counts() const;
 
-    /// Finds for every vertex the contact plane of the nearest surface within the radius, over all bodies.
-    /// Vertices inside a closed form have a contact however deep they are. The normal is the smooth one of
-    /// BodySurface; of several bodies the one with the smallest signed distance counts.
-    /// Vertices whose distance was once found to be large are not searched again before they have moved that far.
+    /// Finds for every vertex the contact plane of the nearest surface within the radius, over all bodies. Vertices
+    /// inside a closed form have a contact at any depth. The normal is the smooth one of BodySurface. Of several bodies
+    /// the one with the smallest signed distance is taken. A vertex found far from all bodies is not searched again
+    /// before it may have come within the radius.
     /// @param position  3 planes, component c of vertex v at [c * stride + v] [m]
     /// @param radius    search radius [m], > 0
     /// @param planes    written for vertices 0 to count - 1
     void nearest(const double* position, int stride, int count, double radius, const ContactPlanes& planes);
 
-    bool moves() const;         ///< A body moves at some time.
+    bool moves() const;         ///< True if a body moves at some time.
     double motion_end() const;  ///< Time after which all bodies stand still [s]; 0 if none moves.
-    double time() const;        ///< At which the bodies are placed [s].
+    double time() const;        ///< Time at which the bodies are placed [s].
 
-    /// Places all bodies where they are at a time [s].
+    /// Moves all bodies to where they are at a time [s].
     void move_to(double time);
 
-    /// The longest time within `room`, halved as often as needed, in which no body's surface moves further than `way`.
+    /// Returns the longest of the steps room, room / 2, room / 4, ... from `time` on in which no body's surface moves
+    /// further than `way`, but no less than about 1e-6 room [s].
     /// @param time, room  [s]   @param way  [m], > 0
     double longest_step(double time, double room, double way) const;
 
-    /// Where the last `move_to` took a point that goes with the surface which the last `nearest` named for a vertex:
-    /// rigidly, and as the closest point of the closest triangle where the body deforms. Without a contact, or where
-    /// the body stands still, the point stays.
+    /// Returns where the last `move_to` took a point [m] that is attached to the surface which the last `nearest` found
+    /// for a vertex. The point moves rigidly with the body, and if the body deforms also with the closest point of the
+    /// closest triangle. Without a contact, or if the body stands still, the point stays.
     Vec3 carried(int vertex, const Vec3& point) const;
 
-    /// Velocity of that surface at a point over the last `move_to`, which ended `span` seconds after it began [m/s].
+    /// Returns the mean velocity of that surface at a point during the last `move_to`, which covered
+    /// `span` seconds [m/s].
     Vec3 surface_velocity(int vertex, const Vec3& point, double span) const
     {
         return (carried(vertex, point) - point) / span;
     }
 
-    /// Forgets all lower bounds; only speed depends on it, since bounds hold for positions that jumped as well.
+    /// Forgets all lower bounds. This changes speed only, since the bounds also hold for positions that jumped.
     void forget();
 
-    /// Finds for every vertex the first place at which its straight path from `from` to `to` enters a body. Where the
-    /// last `move_to` moved the body, the path is that relative to it: `from` holds places before that move.
+    /// Finds for every vertex the first point at which its straight path from `from` to `to` enters a body. For a
+    /// body that the last `move_to` moved, the path is taken relative to the body, and `from` holds the positions
+    /// before that move.
+    /// @param from, to  3 planes, as in nearest() [m]
     std::vector<BodyCrossing> crossings(const double* from, const double* to, int stride, int count);
 
-    /// Measures the true signed distances of all vertices, whatever the reach.
+    /// Measures the signed distances of all vertices to all triangles and closed forms, also outside the reach.
     BodyGap measure(const double* position, int stride, int count) const;
 
 private:

@@ -12,10 +12,17 @@
 namespace selvage {
 namespace {
 
-constexpr double cosine_sharp = 0.642787609686539;  // of 50 degrees
-constexpr double agreement_full = 0.5;              // cosine above which the smooth normal is used as it is
-constexpr double agreement_none = 0.25;             // and below which only the direction to the closest point counts
-constexpr double least_distance = 1e-12;            // [m]; below, the direction to the closest point is rounding
+// Chosen by hand, not measured. The unit tests of continuous contacts around facets, creases, rims and needle tips
+// check what they achieve together.
+struct ContactNormalTuning {
+    static constexpr double sharp_cosine = 0.642787609686539;  // of the bend of a sharp edge: 50 degrees
+    // Cosine of the angle between the smooth normal and the direction to the closest point, above which the smooth
+    // normal is used and below which only the direction is used.
+    static constexpr double smooth_cosine = 0.5;
+    static constexpr double direction_cosine = 0.25;
+};
+
+constexpr double least_distance = 1e-12;  // [m]; below it, rounding determines the direction to the closest point
 
 double corner_angle(const Vec3& apex, const Vec3& a, const Vec3& b)
 {
@@ -85,7 +92,7 @@ void BodySurface::find_face_normals()
     }
 }
 
-// All sides of faces with an area, those of one edge side by side.
+// Lists the sides of all faces with an area, sorted so that the sides of one edge follow each other.
 BodySurface::Sides BodySurface::sorted_sides() const
 {
     Sides sides;
@@ -105,7 +112,7 @@ void BodySurface::find_neighbours(const Sides& sides)
         while (last < sides.size() && same_edge(sides[last], sides[first])) ++last;
         if (last - first != 2) continue;
         const int side0 = std::get<2>(sides[first]), side1 = std::get<2>(sides[first + 1]);
-        if (faces_[side0 / 3][side0 % 3] == faces_[side1 / 3][side1 % 3]) continue;  // wound against each other
+        if (faces_[side0 / 3][side0 % 3] == faces_[side1 / 3][side1 % 3]) continue;  // opposite orientations
         neighbour_[side0 / 3][side0 % 3] = side1;
         neighbour_[side1 / 3][side1 % 3] = side0;
     }
@@ -130,7 +137,7 @@ bool BodySurface::is_sharp(int triangle, int local) const
     const int side = neighbour_[triangle][local];
     const Vec3& normal = face_normals_[triangle];
     const Vec3 to_opposite = corner(side / 3, (side % 3 + 2) % 3) - corner(triangle, local);
-    return normal.dot(face_normals_[side / 3]) < cosine_sharp && to_opposite.dot(normal) < 0;
+    return normal.dot(face_normals_[side / 3]) < ContactNormalTuning::sharp_cosine && to_opposite.dot(normal) < 0;
 }
 
 void BodySurface::find_groups()
@@ -141,7 +148,7 @@ void BodySurface::find_groups()
         for (int k = 0; k < 3; ++k) {
             const int side = neighbour_[f][k];
             if (side < 3 * f || is_sharp(f, k)) continue;
-            const int g = side / 3, edge = side % 3;  // runs against edge k of f
+            const int g = side / 3, edge = side % 3;  // edge k of f, in the opposite direction
             join(parent, 3 * f + k, 3 * g + (edge + 1) % 3);
             join(parent, 3 * f + (k + 1) % 3, 3 * g + edge);
         }
@@ -203,7 +210,7 @@ Vec3 BodySurface::smooth_normal(int triangle, const ClosestOnTriangle& closest, 
 {
     if (closest.feature == TriangleFeature::edge) return unit_or(edge_normal(triangle, closest, direction), direction);
     if (closest.feature == TriangleFeature::corner) {
-        // Between the several normals of a corner on sharp edges, the direction to x turns continuously.
+        // A corner on sharp edges has several normals; the direction to x varies continuously between them.
         const bool sharp = has_several_groups_[faces_[triangle][closest.local]];
         return sharp ? direction : corner_normals_[triangle][closest.local];
     }
@@ -225,8 +232,10 @@ SurfaceContact BodySurface::contact(const Vec3& x, int triangle) const
         direction = sign / distance * offset;
     const Vec3 smooth = smooth_normal(triangle, closest_point, direction);
 
+    constexpr double smooth_cosine = ContactNormalTuning::smooth_cosine,
+                     direction_cosine = ContactNormalTuning::direction_cosine;
     const double agreement = direction.dot(smooth);
-    const double t = std::clamp((agreement - agreement_none) / (agreement_full - agreement_none), 0.0, 1.0);
+    const double t = std::clamp((agreement - direction_cosine) / (smooth_cosine - direction_cosine), 0.0, 1.0);
     const double smooth_share = t * t * (3 - 2 * t);
     SurfaceContact result;
     result.signed_distance = sign * distance;

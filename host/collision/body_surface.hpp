@@ -8,7 +8,7 @@
 
 namespace selvage {
 
-/// What the cloth needs to know about the surface near one point.
+/// The contact of a point with the surface nearest to it.
 struct SurfaceContact {
     double signed_distance = 0;   ///< To the triangulated surface [m], negative inside.
     double gap = 0;               ///< (x - closest point) . normal [m].
@@ -32,7 +32,7 @@ public:
     /// Vertices at exactly the same position are treated as one; faces without area are ignored.
     explicit BodySurface(const TriangleMesh& mesh);
 
-    /// Moves the vertices; which edges are sharp stays as it was. Faces that had no area must stay without.
+    /// Moves the vertices. The set of sharp edges does not change. Faces that had no area must not get one.
     /// @param vertices  as many as the mesh had [m]
     void deform(const std::vector<Vec3>& vertices);
 
@@ -75,7 +75,7 @@ private:
     std::vector<Corners> corner_normals_;           ///< Per face and corner: unit, smooth up to sharp edges.
     std::vector<std::array<int, 3>> corner_group_;  ///< Equal for the corners that share one normal.
     std::vector<char> has_several_groups_;          ///< Per vertex: it lies on sharp edges that divide its faces.
-    Sides sides_;                                   ///< Kept by a surface that deforms.
+    Sides sides_;                                   ///< Kept once the surface has deformed; else empty.
     std::vector<std::array<int, 3>> neighbour_;     ///< Per face and edge: 3 * face + edge beyond it, or -1.
 };
 

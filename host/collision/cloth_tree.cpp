@@ -15,17 +15,23 @@
 namespace selvage {
 namespace {
 
-constexpr double flat_to_skip = 0.4, flat_to_stay = 0.25;  // least s - e of a subtree that is skipped
-constexpr double slack_of_way = 0.02;                      // of a corner's move
-constexpr int grain = 512;
-constexpr std::size_t frontier = 256;  // pieces that a search is divided into
+// Chosen by hand; not measured. All but the flatness affect speed only.
+struct ClothTreeTuning {
+    // Least s - e [1] of a subtree that a search skips, and of one that stays skipped without a new search. The second
+    // is smaller, so that small changes of the shape cause no searches. Points of a skipped subtree that are within the
+    // reach are at most reach / flatness apart at rest.
+    static constexpr double skip_flatness = 0.4, keep_flatness = 0.25;
+    static constexpr double slack_per_move = 0.02;     // slack of a corner over the length of its move [1]
+    static constexpr int items_per_task = 512;         // corners, edges, faces or nodes
+    static constexpr std::size_t search_pieces = 256;  // node pairs from which on a search runs in parallel
+};
 
 using Range = tbb::blocked_range<int>;
 
 template <class Work>
 void parallel(int count, const Work& work)
 {
-    tbb::parallel_for(Range(0, count, grain), [&](const Range& range) {
+    tbb::parallel_for(Range(0, count, ClothTreeTuning::items_per_task), [&](const Range& range) {
         for (int i = range.begin(); i < range.end(); ++i) work(i);
     });
 }
@@ -76,13 +82,14 @@ double ClothTree::Gradients::stretch_bound() const
     return std::sqrt(std::max(smaller, 0.0)) - std::sqrt(squared_spread);
 }
 
-// Boxes in the moving frame, grown by half of the reach and by slack: a little more the further a corner goes, since
-// the next move will go elsewhere by a part of it. Bodies that stand still need no slack.
+// Computes the boxes in the moving frame, enlarged by half of the reach and by the slack. The slack of a corner grows
+// with its move, since the next move will deviate by a fraction of it. Bodies that stand still need no slack, and their
+// boxes are enlarged so that with those of the cloth they make up the bodies' reach.
 void ClothTree::refit_boxes(bool bodies_move, bool bodies_too)
 {
     parallel(bodies_too ? int(start_.size()) : particles_, [&](int k) {
         const bool still = k >= particles_ && !bodies_move;
-        slack_of_[k] = still ? 0 : float(slack_ + slack_of_way * (end_[k] - start_[k]).norm());
+        slack_of_[k] = still ? 0 : float(slack_ + ClothTreeTuning::slack_per_move * (end_[k] - start_[k]).norm());
         const float grown = slack_of_[k] + float(still ? body_reach_ - 0.5 * reach_ : 0.5 * reach_);
         for (int end = 0; end < 2; ++end) {
             const Vec3& x = (end == 0 ? start_ : end_)[k];
@@ -117,7 +124,7 @@ void ClothTree::refit_boxes(bool bodies_move, bool bodies_too)
         }
 }
 
-// Of one face at both ends of a move. @param corners  places of its corners [m]
+// Extends the range by the deformation gradient of a face. @param corners  positions of its corners [m]
 void ClothTree::add_gradient(Gradients& range, int face, const std::array<Vec3, 3>& corners) const
 {
     const std::array<double, 4>& w = rest_inverse_[face];
@@ -131,7 +138,8 @@ void ClothTree::add_gradient(Gradients& range, int face, const std::array<Vec3, 
     range.add(one);
 }
 
-// Whether the whole surface is one piece that is too flat to meet itself. Nothing but its gradients is looked at.
+// Tests whether the whole surface is one panel that is too flat to meet itself. This needs only
+// the deformation gradients.
 bool ClothTree::lies_flat(const double* from, const double* move, int stride) const
 {
     if (surface_.patches.size() != 1 || nodes_.empty() || !nodes_[0].may_be_flat) return false;
@@ -157,7 +165,7 @@ bool ClothTree::lies_flat(const double* from, const double* move, int stride) co
             a.add(b);
             return a;
         });
-    return range.stretch_bound() > flat_to_skip;
+    return range.stretch_bound() > ClothTreeTuning::skip_flatness;
 }
 
 void ClothTree::refit_gradients()
@@ -181,10 +189,11 @@ void ClothTree::refit_gradients()
         }
 }
 
-// Without bodies the frame goes with the mean of the cloth: cloth that moves as a whole meets nothing new.
+// Without bodies the frame moves with the mean of the cloth, since a translation of the whole cloth
+// changes no distance.
 void ClothTree::set_frame(const double* from, const double* move, int stride, const TreeBodies& bodies)
 {
-    Vec3 at = Vec3::Zero(), way = Vec3::Zero();
+    Vec3 mean_start = Vec3::Zero(), mean_move = Vec3::Zero();
     if (bodies.corners.empty()) {
         for (int c = 0; c < 3; ++c) {
             double sum = 0, moves = 0;
@@ -192,14 +201,14 @@ void ClothTree::set_frame(const double* from, const double* move, int stride, co
                 sum += from[c * stride + v];
                 if (move) moves += move[c * stride + v];
             }
-            at[c] = sum / particles_;
-            way[c] = moves / particles_;
+            mean_start[c] = sum / particles_;
+            mean_move[c] = moves / particles_;
         }
     }
     parallel(particles_, [&](int v) {
         for (int c = 0; c < 3; ++c) {
-            start_[v][c] = from[c * stride + v] - at[c];
-            end_[v][c] = start_[v][c] + (move ? move[c * stride + v] - way[c] : 0);
+            start_[v][c] = from[c * stride + v] - mean_start[c];
+            end_[v][c] = start_[v][c] + (move ? move[c * stride + v] - mean_move[c] : 0);
         }
     });
     if (!bodies.moves && bodies.version == body_version_) return;
@@ -209,17 +218,18 @@ void ClothTree::set_frame(const double* from, const double* move, int stride, co
     });
 }
 
-// How much of the searched move brings the corners to where they are, by least squares.
-double ClothTree::part_gone(const std::vector<Vec3>& at) const
+// Returns the fraction of the searched move after which the corners are closest to the given positions,
+// by least squares.
+double ClothTree::fitted_fraction(const std::vector<Vec3>& at) const
 {
     using Sums = std::array<double, 2>;
     const Sums sums = tbb::parallel_deterministic_reduce(
         Range(0, particles_, 4096), Sums{},
         [&](const Range& range, Sums sum) {
             for (int k = range.begin(); k < range.end(); ++k) {
-                const Vec3 way = searched_end_[k] - searched_start_[k];
-                sum[0] += way.dot(at[k] - searched_start_[k]);
-                sum[1] += way.squaredNorm();
+                const Vec3 move = searched_end_[k] - searched_start_[k];
+                sum[0] += move.dot(at[k] - searched_start_[k]);
+                sum[1] += move.squaredNorm();
             }
             return sum;
         },
@@ -233,15 +243,15 @@ bool ClothTree::still_complete(const TreeBodies& bodies, double reach, double bo
 {
     if (!valid_ || reach > reach_ || body_reach > body_reach_ || bodies.moves || bodies.version != body_version_)
         return false;
-    const double part = part_gone(start_), end_part = part_gone(end_);
+    const double start_part = fitted_fraction(start_), end_part = fitted_fraction(end_);
     return tbb::parallel_reduce(
         Range(0, particles_, 4096), true,
         [&](const Range& range, bool all) {
             for (int k = range.begin(); k < range.end() && all; ++k) {
-                const Vec3 way = searched_end_[k] - searched_start_[k];
-                const double strayed = std::max((start_[k] - searched_start_[k] - part * way).squaredNorm(),
-                                                (end_[k] - searched_start_[k] - end_part * way).squaredNorm());
-                all = strayed <= double(slack_of_[k]) * slack_of_[k];
+                const Vec3 move = searched_end_[k] - searched_start_[k];
+                const double deviation = std::max((start_[k] - searched_start_[k] - start_part * move).squaredNorm(),
+                                                  (end_[k] - searched_start_[k] - end_part * move).squaredNorm());
+                all = deviation <= double(slack_of_[k]) * slack_of_[k];
             }
             return all;
         },
@@ -260,8 +270,9 @@ bool ClothTree::cover(const double* from, const double* move, int stride, const 
     }
     set_frame(from, move, stride, bodies);
     refit_gradients();
-    if (still_complete(bodies, reach, body_reach) &&
-        std::all_of(skipped_.begin(), skipped_.end(), [&](int n) { return is_flat(n, flat_to_stay); })) {
+    if (still_complete(bodies, reach, body_reach) && std::all_of(skipped_.begin(), skipped_.end(), [&](int n) {
+            return is_flat(n, ClothTreeTuning::keep_flatness);
+        })) {
         ++counts_.reused;
         return false;
     }
@@ -270,7 +281,7 @@ bool ClothTree::cover(const double* from, const double* move, int stride, const 
     reach_ = reach;
     body_reach_ = body_reach;
     refit_boxes(bodies.moves, !bodies_as_before);
-    // What has been on the way of a moving body is not what is around it when it stands still.
+    // The candidates along the move of a body are not those around it at rest, so the next call must search.
     body_version_ = bodies.moves ? -1 : bodies.version;
     search();
     valid_ = true;
@@ -302,8 +313,8 @@ void ClothTree::let_sleep(const std::vector<char>* is_awake)
                  [this](const PairCandidate& candidate) { return sleeps(candidate); });
 }
 
-// What was found before they fell asleep is where it is still.
-void ClothTree::keep_asleep()
+// Adds the candidates of sleeping corners, which have not moved since these candidates were found.
+void ClothTree::add_sleeping_candidates()
 {
     const std::size_t first = candidates_.size();
     candidates_.insert(candidates_.end(), asleep_.begin(), asleep_.end());
@@ -321,10 +332,10 @@ void ClothTree::search()
     candidates_.clear();
     skipped_.clear();
     if (nodes_.empty()) return;
-    // The first pieces are found one after the other; then each is searched on its own and the answers are joined in
-    // their order, so that they do not depend on the threads.
+    // One thread traverses the tree down to the first pieces. The pieces are then searched in parallel, and the results
+    // are joined in the order of the pieces, so that they do not depend on the number of threads.
     std::vector<NodePair> pieces{{0, 0}}, stack;
-    for (std::size_t next = 0; next < pieces.size() && pieces.size() - next < frontier; ++next) {
+    for (std::size_t next = 0; next < pieces.size() && pieces.size() - next < ClothTreeTuning::search_pieces; ++next) {
         stack.clear();
         visit(pieces[next], stack, skipped_, candidates_);
         pieces[next] = {-1, -1};
@@ -346,10 +357,10 @@ void ClothTree::search()
         skipped_.insert(skipped_.end(), skipped[p].begin(), skipped[p].end());
     }
     counts_.flat_skipped += static_cast<long long>(skipped_.size());
-    keep_asleep();
+    add_sleeping_candidates();
 }
 
-// Those of a leaf that meet a box.
+// Returns the faces of a leaf whose boxes meet a box.
 ClothTree::FacesNear ClothTree::faces_near(const Node& leaf, const Sweep& box) const
 {
     FacesNear result;
@@ -366,13 +377,13 @@ void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<i
     if (!is_awake_.empty() && node_sleeps_[a] && node_sleeps_[b]) return;
     if (a == b) {
         if (is_body(a)) return;
-        if (is_flat(a, flat_to_skip)) {
+        if (is_flat(a, ClothTreeTuning::skip_flatness)) {
             skipped.push_back(a);
         } else if (na.right > 0) {
             stack.insert(stack.end(), {{a + 1, a + 1}, {na.right, na.right}, {a + 1, na.right}});
         } else {
             for (int i = 0; i < na.count; ++i)
-                for (int j = i + 1; j < na.count; ++j) meet(order_[na.first + i], order_[na.first + j], found);
+                for (int j = i + 1; j < na.count; ++j) offer_pairs(order_[na.first + i], order_[na.first + j], found);
         }
         return;
     }
@@ -382,7 +393,7 @@ void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<i
         for (int i = 0; i < na.count && of_b.count > 0; ++i) {
             const int face = order_[na.first + i];
             if (!face_box_[face].meets(node_box_[b])) continue;
-            for (int j = 0; j < of_b.count; ++j) meet(face, of_b.face[j], found);
+            for (int j = 0; j < of_b.count; ++j) offer_pairs(face, of_b.face[j], found);
         }
     } else if (nb.right == 0 || (na.right > 0 && na.count >= nb.count)) {
         stack.insert(stack.end(), {{a + 1, b}, {na.right, b}});
@@ -391,7 +402,7 @@ void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, std::vector<i
     }
 }
 
-// Whether the two sides share no vertex, and will not once they are sewn.
+// Tests that the two primitives share no vertex, also after sewing.
 bool ClothTree::may_touch(const PairCandidate& candidate) const
 {
     const int first = candidate.edges ? 2 : 1;
@@ -403,7 +414,7 @@ bool ClothTree::may_touch(const PairCandidate& candidate) const
     return true;
 }
 
-// Keeps a pair whose distance is not more than what it can lose.
+// Keeps a pair whose distance, less the bound of its approach during the move, is within the reach and the slack.
 void ClothTree::offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const
 {
     if (!may_touch(candidate) || (!is_awake_.empty() && sleeps(candidate))) return;
@@ -423,8 +434,8 @@ void ClothTree::offer(const PairCandidate& candidate, std::vector<PairCandidate>
     found.back().distance = rounded_down(distance);
 }
 
-// Offers the pairs of two faces' primitives, those that are near the other face as a whole.
-void ClothTree::meet(int face_a, int face_b, std::vector<PairCandidate>& found) const
+// Offers the pairs of primitives of two faces. A primitive is first tested against the whole other face.
+void ClothTree::offer_pairs(int face_a, int face_b, std::vector<PairCandidate>& found) const
 {
     if (!is_awake_.empty() && face_sleeps_[face_a] && face_sleeps_[face_b]) return;
     if (!face_box_[face_a].meets(face_box_[face_b])) return;

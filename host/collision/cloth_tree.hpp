@@ -15,10 +15,10 @@ namespace selvage {
 struct PairCandidate {
     std::array<int, 4> corner{};  ///< A vertex and a face's three, or the ends of two edges.
     bool edges = false;
-    float distance = 0;  ///< Where the search found it: a lower bound, exact but for rounding [m].
+    float distance = 0;  ///< At the start of the searched move, rounded down [m].
 };
 
-/// What a tree is built over. Faces of bodies have corners below zero; see PairCandidate.
+/// The faces over which a tree is built. Faces of bodies have corners below zero; see PairCandidate.
 struct TreeSurface {
     struct Patch {  ///< A panel of the cloth, or a body.
         int first_face = 0, face_count = 0;
@@ -29,77 +29,78 @@ struct TreeSurface {
     std::vector<std::array<Vec2, 3>> rest;  ///< Panel coordinates of the corners of each face [m]; unused for bodies.
     std::vector<Patch> patches;
     std::vector<int> group_of;       ///< Per particle: particles that are or will be sewn are one group.
-    std::vector<Vec3> body_corners;  ///< Where the bodies' corners are at first [m].
+    std::vector<Vec3> body_corners;  ///< Positions of the bodies' corners at first [m].
 };
 
 /// The corners of all bodies at a time.
 struct TreeBodies {
     const std::vector<Vec3>& corners;          ///< [m]
-    const std::vector<Vec3>* moves = nullptr;  ///< Their straight way [m]; null: they stand still.
+    const std::vector<Vec3>* moves = nullptr;  ///< Their straight displacements [m]; null: they stand still.
     int version = 0;                           ///< Changes whenever the corners do.
 };
 
 struct TreeCounts {
     long long searches = 0;      ///< Traversals of the tree.
-    long long reused = 0;        ///< Times that the last candidates were proved to be still complete.
-    long long flat_skipped = 0;  ///< Subtrees that were skipped in traversals since they cannot meet themselves.
+    long long reused = 0;        ///< Calls in which the last candidates were proved to be still complete.
+    long long flat_skipped = 0;  ///< Subtrees that traversals skipped since they cannot meet themselves.
 };
 
-/// A bounding volume hierarchy over the faces of the cloth, and of the bodies that it may touch, whose nodes have a box
-/// for each end of a move. It finds all pairs of primitives that can come within a distance during the move.
+/// A bounding volume hierarchy over the faces of the cloth and of the bodies that it may touch. Every node has one box
+/// for either end of a move. The tree finds all pairs of primitives that can come within a distance during the move.
 ///
-/// Corners go straight and at the same time, so that the lowest corner of a side is above the chord of its lowest at
-/// both ends: two sides that are apart along the same axis in the same order at both ends are so all the way, however
-/// far they go together.
+/// All corners move along straight lines at the same time. The lowest coordinate of a primitive is then a concave
+/// function of time, and the highest a convex one. Two primitives that are separated along an axis in the same order at
+/// both ends are therefore separated during the whole move, however far they move together.
 ///
-/// Flat parts are skipped (E7). Between two points of a convex piece of a panel at rest distance r, with F the
-/// deformation gradient (3x2) of its faces, the distance in space is at least (s - e) r, where s is the smaller
-/// singular value of some F0 and e bounds |F - F0| over the piece: the path between them is straight at rest and
+/// Flat parts are skipped. Take two points of a convex piece of a panel at rest distance r, with F the deformation
+/// gradient (3x2) of its faces. Their distance in space is at least (s - e) r, where s is the smaller singular value of
+/// some F0 and e bounds |F - F0| over the piece, since the path between them is straight at rest and
 ///     |x(a) - x(b)| = |integral F dr| >= |F0 (a - b)| - e |a - b|.
-/// So a subtree whose s - e is above a threshold cannot meet itself, which also covers its outline, and since F is
-/// linear in the positions, checking both ends of a move covers the move. This is a rigorous form of the test on
-/// cones of normals.
+/// So a subtree whose s - e is above a threshold cannot meet itself, also not along its outline. F is linear in the
+/// positions, so ranges of F that include both ends of a move hold during the whole move. This is a rigorous form of
+/// the test on cones of normals.
 ///
-/// Candidates stay complete while every corner begins and ends within its slack of where the searched move has it at a
-/// moment that all have in common, in a frame that moves along with the cloth, and while every skipped subtree still
-/// passes the test.
+/// A new move needs no search under two conditions. First, at its start, and again at its end, every corner is within
+/// its slack of its position at some moment of the searched move, which is the same moment for all corners; positions
+/// are relative to a frame that moves with the cloth. Second, every skipped subtree still passes the test of flatness.
 class ClothTree {
 public:
-    /// @param slack  how far corners may stray from the searched move before it has to be searched again [m]
+    /// @param slack  distance by which corners may deviate from the searched move without a new search [m]
     ClothTree(TreeSurface surface, double slack);
 
     /// Makes candidates complete for the straight moves from `from` to `from + move` of all particles.
-    /// @param reach       distance of primitives that is of interest [m]
+    /// @param reach       distance within which pairs of cloth primitives are candidates [m]
     /// @param from, move  planes, component c of particle v at [c * stride + v] [m]; move may be null: no move
-    /// @param bodies       where the bodies are
-    /// @param body_reach   the same for a primitive of the cloth and one of a body, at most reach [m]
+    /// @param bodies      positions and moves of the bodies
+    /// @param body_reach  the same for a primitive of the cloth and one of a body, at most reach [m]
     /// @returns true if the candidates have changed
     bool cover(const double* from, const double* move, int stride, const TreeBodies& bodies, double reach,
                double body_reach);
 
-    /// From here on looks only at what has an awake corner, until told otherwise. What is known of the others stays
-    /// known: their corners, and those of bodies, must stand still. @param is_awake  per particle; null: all are
+    /// From the next call of cover on searches only for pairs with an awake corner. Candidates whose corners all sleep
+    /// are kept, so these corners, and those of bodies, must not move.
+    /// @param is_awake  per particle; null: all are awake
     void let_sleep(const std::vector<char>* is_awake);
 
     const std::vector<PairCandidate>& candidates() const { return candidates_; }
     const TreeCounts& counts() const { return counts_; }
-    void forget() { valid_ = false; }  ///< The next call of cover searches.
+    void forget() { valid_ = false; }  ///< Makes the next call of cover search.
     std::size_t bytes() const;
 
 private:
-    struct Sweep {  // boxes at both ends of a move; a fourth component, 0 if not empty, pads them
+    struct Sweep {  // boxes at both ends of a move; the fourth component is padding, 0 unless empty
         using Corner = Eigen::Array4f;
         std::array<Corner, 2> low, high;
         void clear();
         void add(const Sweep& other);
-        bool meets(const Sweep& other) const  // false: they are apart all the way
+        bool meets(const Sweep& other) const  // false: they are separated during the whole move
         {
             const Corner above = (low[0] - other.high[0]).min(low[1] - other.high[1]);
             const Corner below = (other.low[0] - high[0]).min(other.low[1] - high[1]);
             return above.max(below).maxCoeff() <= 0;
         }
     };
-    struct Gradients {  // range of the deformation gradients, F by columns
+    struct Gradients {  // range of the deformation gradients F, column by column
         std::array<float, 6> low, high;
         void clear();
         void add(const Gradients& other);
@@ -108,19 +109,19 @@ private:
     struct Node {
         int right = 0;                       // second child, the first comes next; 0: a leaf
         int first = 0, count = 0;            // its faces, in tree order
-        int patch = -1;                      // -1: several
+        int patch = -1;                      // of its faces; -1: several
         bool may_be_flat = false;            // its piece of the panel is convex
-        int first_near = 0, near_count = 0;  // leaves: faces that overlap its cell, grown by the largest face
+        int first_near = 0, near_count = 0;  // leaves: range of near_
     };
     using NodePair = std::array<int, 2>;
-    static constexpr int leaf_faces = 4;  // at most
+    static constexpr int leaf_faces = 4;  // at most; affects speed only; chosen by hand, not measured
     struct FacesNear {
         std::array<int, leaf_faces> face;
         int count = 0;
     };
-    struct Cell {  // rectangle of a panel that a node stands for, and what overlaps it
+    struct Cell {  // rectangle of a panel that a node covers, and what overlaps it
         Vec2 low, high;
-        std::vector<int> faces, outline;  // outline: index into outline_
+        std::vector<int> faces, outline;  // outline: indices into PatchBuild::outline
     };
     struct PatchBuild;
 
@@ -130,7 +131,7 @@ private:
     void own_primitives();
     void set_frame(const double* from, const double* move, int stride, const TreeBodies& bodies);
     bool still_complete(const TreeBodies& bodies, double reach, double body_reach) const;
-    double part_gone(const std::vector<Vec3>& at) const;
+    double fitted_fraction(const std::vector<Vec3>& at) const;
     void add_gradient(Gradients& range, int face, const std::array<Vec3, 3>& corners) const;
     bool lies_flat(const double* from, const double* move, int stride) const;
     void refit_gradients();
@@ -139,7 +140,7 @@ private:
     void visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
                std::vector<PairCandidate>& found) const;
     FacesNear faces_near(const Node& leaf, const Sweep& box) const;
-    void meet(int face_a, int face_b, std::vector<PairCandidate>& found) const;
+    void offer_pairs(int face_a, int face_b, std::vector<PairCandidate>& found) const;
     void offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const;
     bool may_touch(const PairCandidate& candidate) const;
     bool sleeps(int corner) const { return corner < 0 || !is_awake_[corner]; }
@@ -147,7 +148,7 @@ private:
     {
         return std::all_of(candidate.corner.begin(), candidate.corner.end(), [this](int c) { return sleeps(c); });
     }
-    void keep_asleep();
+    void add_sleeping_candidates();
     int slot(int corner) const { return corner >= 0 ? corner : particles_ - 1 - corner; }
     bool is_body(int node) const { return nodes_[node].patch >= 0 && !surface_.patches[nodes_[node].patch].flat; }
     bool is_flat(int node, double threshold) const
@@ -160,10 +161,10 @@ private:
     int particles_ = 0;
     std::vector<int> order_;                     // tree order to face
     std::vector<Node> nodes_;                    // children behind their parents
-    std::vector<int> near_;                      // faces, see Node
-    std::vector<std::uint8_t> owned_;            // per face: bits 0-2 its corners that it stands for
-    std::vector<std::array<int, 3>> own_edges_;  // per face: its edges that it stands for, -1 where another face does
-    std::vector<std::array<int, 2>> edges_;      // their corners
+    std::vector<int> near_;                      // per leaf: faces that overlap its cell, enlarged by the largest face
+    std::vector<std::uint8_t> owned_;            // per face: bits 0-2 mark the corners that it owns
+    std::vector<std::array<int, 3>> own_edges_;  // per face: the edges that it owns, -1 where another face does
+    std::vector<std::array<int, 2>> edges_;      // corners of each edge
     std::vector<std::array<double, 4>> rest_inverse_;
 
     std::vector<Vec3> start_, end_;                    // of each corner in the moving frame, particles first
@@ -171,10 +172,10 @@ private:
     std::vector<float> slack_of_;                      // of each corner [m]
     std::vector<Sweep> corner_box_, edge_box_, face_box_, node_box_;
     std::vector<Gradients> face_gradients_, node_gradients_;
-    std::vector<int> skipped_;    // nodes that were taken for flat
+    std::vector<int> skipped_;    // nodes skipped as flat
     std::vector<char> is_awake_;  // per particle; empty: all are
     std::vector<char> face_sleeps_, node_sleeps_;
-    std::vector<PairCandidate> asleep_;  // candidates all of whose corners stand still
+    std::vector<PairCandidate> asleep_;  // candidates all of whose corners sleep
     double reach_ = 0, body_reach_ = 0;
     int body_version_ = -1;
     bool valid_ = false;

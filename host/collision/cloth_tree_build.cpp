@@ -1,4 +1,4 @@
-// How a ClothTree is laid out; it is done once per phase.
+// Construction of a ClothTree, once per phase.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -40,11 +40,11 @@ std::vector<std::array<int, 2>> outline_of(const std::vector<Face>& faces, int f
 
 }  // namespace
 
-// What is needed while one patch is divided.
+// State of the recursive construction over one patch.
 struct ClothTree::PatchBuild {
     int patch = 0;
     bool flat = false, convex = false;
-    double largest = 0;                        // way from a face's middle to its corners, at most [m]
+    double largest = 0;                        // distance of a corner from its face's centroid [m]
     std::vector<Vec3> middle;                  // per face of the surface
     std::vector<std::array<Vec2, 2>> outline;  // edges of a panel that is not convex
 };
@@ -76,7 +76,7 @@ ClothTree::ClothTree(TreeSurface surface, double slack)
     node_gradients_.resize(nodes_.size());
 }
 
-// Each vertex and each edge is stood for by the first face that has it.
+// Lets the first face of each vertex and edge own it, so that every primitive is offered once.
 void ClothTree::own_primitives()
 {
     struct Side {
@@ -99,7 +99,7 @@ void ClothTree::own_primitives()
     for (std::size_t i = 0; i < sides.size(); ++i)
         if (i == 0 || sides[i].low != sides[i - 1].low || sides[i].high != sides[i - 1].high)
             own_edges_[sides[i].face][sides[i].local] = 0;
-    for (std::size_t f = 0; f < own_edges_.size(); ++f)  // in the order of the faces, as they will be read
+    for (std::size_t f = 0; f < own_edges_.size(); ++f)  // numbered in the order in which the faces read them
         for (int k = 0; k < 3; ++k) {
             if (own_edges_[f][k] < 0) continue;
             own_edges_[f][k] = int(edges_.size());
@@ -153,7 +153,8 @@ void ClothTree::build_patches(int first_patch, int patch_count)
     build(build_state, patch.first_face, patch.face_count, cell);
 }
 
-// The part of a cell between two corners, with what overlaps it when it is grown by a face.
+// Returns the part of a cell between two corners, with the faces and outline edges that overlap it, enlarged by
+// the largest face.
 ClothTree::Cell ClothTree::part_of(const PatchBuild& build, const Cell& cell, const Vec2& low, const Vec2& high) const
 {
     Cell part{low, high, {}, {}};

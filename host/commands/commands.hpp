@@ -16,7 +16,7 @@ struct SceneChoice {
 };
 
 /// Adds the positional SCENE and the option --set, which fill `choice`.
-/// @param default_scene  taken when SCENE is not given; empty: SCENE is required
+/// @param default_scene  used if SCENE is not given; empty: SCENE is required
 void add_scene_options(CLI::App& command, SceneChoice& choice, const std::string& default_scene = {});
 
 /// Returns the valid subcommand or option closest to the first one on the command line that `program` does not know,

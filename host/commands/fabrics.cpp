@@ -17,7 +17,7 @@ struct Property {
     double Fabric::*value;
 };
 
-// Names and units come from the list of scene keys, so a new property shows up here by itself.
+// Names and units come from the list of scene keys, so that every property is listed without a change here.
 #define PROPERTY(type, name, initial, unit, low, high, meaning) {#name, unit, &Fabric::name},
 #define LIST_CURVE(name, number, measure, meaning) {#name, CurveMeasure::measure, &Fabric::name},
 #define NOT_A_KEY(name, ...)
@@ -32,7 +32,7 @@ constexpr CurveProperty curves[] = {FABRIC_KEYS(NOT_A_KEY, NOT_A_KEY, LIST_CURVE
 #undef LIST_CURVE
 #undef NOT_A_KEY
 
-// The ends of a curve's ranges as they would be measured.
+// Returns the ends of a curve's ranges as pairs of the measured quantities.
 std::vector<Vec2> measured_ends(const StressCurve& curve, CurveMeasure measure)
 {
     std::vector<Vec2> ends;

@@ -18,14 +18,14 @@
 namespace selvage {
 namespace {
 
-// A mesh of equilateral triangles has this many vertices per squared edge length.
+// Vertices per squared edge length of a mesh of equilateral triangles: 2 / sqrt(3).
 constexpr double vertex_density = 1.1547;
 
 struct MeshedPanel {
     PanelMesh mesh;
     std::vector<std::vector<int>> edge_vertices;  // by edge, from its start to its end
     double area = 0, boundary = 0;
-    bool clockwise = false;  ///< How the pattern draws the outline: a panel is drawn as seen from its outside.
+    bool clockwise = false;  ///< The outline runs clockwise about the z axis of the panel, whose outside is then at -z.
 };
 
 std::string number_text(double value)
@@ -96,7 +96,7 @@ MeshedPanel mesh_one(const PatternPanel& panel, const std::vector<int>& segments
     return result;
 }
 
-// Meshes the panels side by side; of several faults the first panel's is reported.
+// Meshes the panels in parallel. If several fail, the exception of the first one is thrown.
 std::vector<MeshedPanel> mesh_all(const Pattern& pattern, const std::vector<std::vector<int>>& segments,
                                   double edge_length)
 {
@@ -115,7 +115,7 @@ std::vector<MeshedPanel> mesh_all(const Pattern& pattern, const std::vector<std:
     return meshed;
 }
 
-// Adds one panel to the cloth and returns the places of its edges in Cloth::outline.
+// Adds one panel to the cloth and returns the indices of its edges in Cloth::outline.
 std::vector<int> add_panel(Cloth& cloth, const PatternPanel& panel, const MeshedPanel& meshed,
                            const std::vector<double>& lengths, const std::string& fabric)
 {

@@ -7,15 +7,17 @@
 
 namespace selvage {
 
-/// Returns where a point of a panel starts in the scene: rolled onto the panel's cylinder, turned and moved [m].
+/// Returns the start position in the scene of a point of a panel: rolled onto the panel's cylinder, rotated
+/// and translated [m].
 Vec3 place_on_panel(const PatternPanel& panel, const Vec2& point);
 
-/// Meshes all panels of a pattern, samples the two sides of every seam alike and places the panels in the scene.
+/// Meshes all panels of a pattern, with the same number of samples on both sides of every seam, and places them
+/// in the scene.
 /// @param edge_length     target edge length of the triangles [m], > 0
-/// @param garment_fabric  of panels that neither `panel_fabrics` nor the pattern gives a fabric
+/// @param garment_fabric  fabric of panels to which neither `panel_fabrics` nor the pattern gives one
 /// @param panel_fabrics   panel name to fabric name
 /// @param file            name of the pattern file for messages
-/// @param max_vertices    refuses patterns that would need more at this edge length
+/// @param max_vertices    patterns that would need more at this edge length are refused
 /// @throws InputError for a faulty outline or stitch, an unknown panel name (key `garment.fabrics.NAME`), or an
 ///         edge length that is too fine or too coarse for the pattern (key `garment.resolution`)
 Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::string& garment_fabric,

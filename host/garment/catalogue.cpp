@@ -38,6 +38,7 @@ void add_sleeves(Pattern& pattern, const SleeveStyle& style, const MannequinLand
     pattern.stitches.insert(pattern.stitches.end(), stitches.begin(), stitches.end());
 }
 
+/// Eases and proportions were chosen by hand.
 Pattern draft_tshirt(const MannequinMeasures& measures, const MannequinLandmarks& landmarks)
 {
     BodiceStyle style;
@@ -48,6 +49,7 @@ Pattern draft_tshirt(const MannequinMeasures& measures, const MannequinLandmarks
     return pattern;
 }
 
+/// Eases and proportions were chosen by hand.
 Pattern draft_vest(const MannequinMeasures& measures, const MannequinLandmarks& landmarks)
 {
     BodiceStyle style;

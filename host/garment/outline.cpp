@@ -10,8 +10,8 @@
 namespace selvage {
 namespace {
 
-constexpr int bezier_intervals = 64;
-constexpr int check_segments = 48;      // of a curved edge, for finding crossings whatever the resolution
+constexpr int bezier_intervals = 64;    // of one quadrature each, for a relative error of the length below 1e-6
+constexpr int check_segments = 48;      // of a curved edge, in the search for crossings, at any resolution of the mesh
 constexpr double shortest_edge = 1e-6;  // [m]
 
 }  // namespace
@@ -106,7 +106,7 @@ Vec2 EdgePath::at(double fraction) const
     const int interval = std::max(0, int(above - length_before_.begin()) - 1);
     const double from = double(interval) / bezier_intervals;
     double low = from, high = from + 1.0 / bezier_intervals, parameter = 0.5 * (low + high);
-    // Newton's method, bisecting where the curve nearly stands still.
+    // Newton's method, with bisection where the speed along the curve nearly vanishes.
     for (int iteration = 0; iteration < 60 && high - low > 1e-15; ++iteration) {
         const double missing = wanted - length_before_[interval] - bezier_length(from, parameter);
         if (std::abs(missing) < 1e-14 * length_) break;

@@ -27,8 +27,8 @@ private:
 
     EdgeCurve curve_;
     Vec2 start_, end_;
-    std::array<Vec2, 4> points_;         // cubic control polygon; a quadratic is raised to it
-    std::vector<double> length_before_;  // arc length up to equal steps of the Bezier parameter
+    std::array<Vec2, 4> points_;         // cubic control polygon; a quadratic curve is stored as a cubic
+    std::vector<double> length_before_;  // arc length up to each of equal steps of the Bezier parameter
     Vec2 centre_ = Vec2::Zero();
     double radius_ = 0, first_angle_ = 0, swept_angle_ = 0;
     bool radius_enlarged_ = false;

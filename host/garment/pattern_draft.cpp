@@ -9,8 +9,9 @@
 namespace selvage {
 namespace {
 
-const double gap_to_torso = 0.045;     // Between the torso's extremes and a panel's centre line [m].
-const double gap_to_shoulder = 0.055;  // Between a sleeve's start and its seat on the shoulder, along the arm [m].
+// Chosen by hand.
+const double gap_to_torso = 0.045;     // From the front or back of the torso to the centre line of a panel [m].
+const double gap_to_shoulder = 0.055;  // From the shoulder to a sleeve's start position, along the arm [m].
 
 PatternEdge straight(int start, int end) { return {.start = start, .end = end}; }
 
@@ -26,7 +27,7 @@ PatternEdge cubic(int start, int end, const Vec2& first, const Vec2& second)
 
 Vec2 mirrored(const Vec2& point) { return {-point.x(), point.y()}; }
 
-/// Root of an increasing function between low and high.
+/// Returns the root of an increasing function between low and high.
 double bisect(double low, double high, const std::function<double(double)>& increasing)
 {
     for (int halving = 0; halving < 50; ++halving) {
@@ -36,7 +37,8 @@ double bisect(double low, double high, const std::function<double(double)>& incr
     return 0.5 * (low + high);
 }
 
-/// Control points of a cap half from the underarm (width, 0) to the top (0, height): an S, level at both ends.
+/// Returns the control points of half a sleeve cap from the underarm (width, 0) to the top (0, height): an S-shaped
+/// curve with horizontal ends.
 std::array<Vec2, 2> cap_controls(double width, double height)
 {
     return {Vec2(0.60 * width, 0), Vec2(0.42 * width, height)};
@@ -53,7 +55,7 @@ double cap_length(double width, double height)
     return edge_length(half, 0);
 }
 
-/// Width of a cap half of the given height whose curve is `length` long.
+/// Returns the width of half a sleeve cap of the given height whose curve is `length` long.
 double cap_width(double length, double height)
 {
     return bisect(0, length, [&](double width) { return cap_length(width, height) - length; });
@@ -98,7 +100,7 @@ PatternPanel draft_bodice(BodiceSide side, const BodiceStyle& style, const Manne
 {
     const bool front = side == BodiceSide::front;
     const Vec3 body_neck = landmarks.neck_side[0], body_shoulder = landmarks.shoulder_point[0];
-    // Slightly flatter than the shoulder, so that the cloth rests on its neck end.
+    // The panel's slope is slightly flatter than the shoulder's, so that the cloth rests on the shoulder's neck end.
     const double slope = 0.9 * (body_neck.z() - body_shoulder.z()) / (body_shoulder.x() - body_neck.x());
     const Vec2 neck(body_neck.x() + style.neck_ease, 0);
     const double shoulder_x = body_shoulder.x() - style.shoulder_inset;
@@ -113,7 +115,7 @@ PatternPanel draft_bodice(BodiceSide side, const BodiceStyle& style, const Manne
     const Vec2 high_control = shoulder + 0.5 * (shoulder.y() - underarm.y()) * across_seam;
     const Vec2 waist(0.5 * (underarm.x() + hem_corner.x()) - 2 * style.waist_shaping,
                      0.5 * (underarm.y() + hem_corner.y()));
-    // The middle of a cubic lies at three quarters of its controls' depth.
+    // The middle of a cubic curve lies at three quarters of the depth of its control points.
     const double depth = (front ? style.front_neck_depth : style.back_neck_depth) / 0.75;
     const Vec2 neck_control((front ? 0.92 : 0.70) * neck.x(), -depth);
 
@@ -155,7 +157,7 @@ PatternPanel draft_sleeve(int hand, const SleeveStyle& style, double front_armho
                    cubic(3, 4, mirrored(left_controls[1]), mirrored(left_controls[0])), straight(4, 0)};
 
     const double middle = 0.5 * (right - left);
-    // Wider than the sleeve's girth: the underarm edges face each other across a small gap.
+    // The cylinder is wider than the sleeve's girth, so that the underarm edges face each other across a small gap.
     const double radius = 1.06 * (left + right) / (2 * std::numbers::pi);
     const Vec3 along = landmarks.arm_direction[hand];
     const Vec3 outward = Vec3::UnitZ() - along.z() * along;

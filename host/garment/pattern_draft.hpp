@@ -4,19 +4,19 @@
 
 namespace selvage {
 
-/// What a bodice adds to the body's measures [m].
+/// The dimensions of a bodice beyond the body's measures [m].
 struct BodiceStyle {
     double bust_ease = 0.14;       ///< Girth at the underarm beyond the bust.
     double length = 0.72;          ///< From the neck end of the shoulder down to the hem.
     double flare = 1.03;           ///< Width of the hem over that at the underarm.
     double waist_shaping = 0.008;  ///< How far the side seams bend inwards.
-    double neck_ease = 0.012;      ///< Of the neck end of the shoulder, outwards.
+    double neck_ease = 0.012;      ///< Outward shift of the neck end of the shoulder.
     double front_neck_depth = 0.095, back_neck_depth = 0.025;
-    double shoulder_inset = 0;    ///< Of the shoulder's end, inwards from the shoulder point.
-    double armhole_drop = 0.030;  ///< Of the underarm below the armpit.
+    double shoulder_inset = 0;    ///< Inward shift of the shoulder's end from the shoulder point.
+    double armhole_drop = 0.030;  ///< Depth of the underarm below the armpit.
 };
 
-/// What a sleeve adds to the arm's measures [m].
+/// The dimensions of a sleeve beyond the arm's measures [m].
 struct SleeveStyle {
     double ease = 0.12;    ///< Girth beyond the upper arm's.
     double length = 0.21;  ///< Underarm to hem.

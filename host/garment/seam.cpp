@@ -10,7 +10,7 @@
 namespace selvage {
 namespace {
 
-// Correlation below which a seam looks crossed. Seams of real garments lie between 0.2 and 1.
+// Correlation below which a seam counts as crossed [1]. Seams of real garments lie between 0.2 and 1.
 constexpr double crossed_correlation = -0.15;
 
 std::string stitch_key(int stitch) { return "pattern.stitches[" + std::to_string(stitch) + "]"; }
@@ -20,8 +20,9 @@ std::string side_name(const Pattern& pattern, const StitchSide& side)
     return pattern.panels[side.panel].name + ".edges[" + std::to_string(side.edge) + "]";
 }
 
-// Returns how far paired points keep their order in space: 1 if the sides are copies moved apart, -1 if one of
-// them runs backwards. Distances would not tell: what lies between two panels outweighs the order of their points.
+// Returns the correlation of the positions of paired points about their means: 1 if one side is a translated copy of
+// the other, -1 if it runs in the opposite direction. Distances of the pairs would not show the direction, since the
+// distance between the panels outweighs it.
 double correlation(const Cloth& cloth, const std::vector<int>& a, const std::vector<int>& b, bool same_direction)
 {
     Vec3 middle_a = Vec3::Zero(), middle_b = Vec3::Zero();
@@ -82,7 +83,7 @@ std::vector<std::vector<int>> edge_segments(const Pattern& pattern, const std::v
 {
     std::vector<std::vector<int>> segments;
     for (const std::vector<double>& panel : lengths) {
-        // A panel with only two edges needs a point between its corners to have an area.
+        // A panel with only two edges has an area only if each of them is divided.
         const int fewest = panel.size() < 3 ? 2 : 1;
         segments.emplace_back();
         for (const double length : panel)

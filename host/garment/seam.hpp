@@ -12,14 +12,14 @@ namespace selvage {
 /// @throws InputError naming the edge and both stitches
 void check_stitches(const Pattern& pattern, const std::string& file);
 
-/// Returns into how many equal parts each edge of each panel is cut: its length over `edge_length`, rounded.
-/// Both edges of a stitch get the number of the longer one.
+/// Returns the number of equal segments of each edge of each panel: its length over `edge_length`, rounded. Both edges
+/// of a stitch get the number of the longer one.
 /// @param lengths  of the exact curves, by panel and edge [m]
 std::vector<std::vector<int>> edge_segments(const Pattern& pattern, const std::vector<std::vector<double>>& lengths,
                                             double edge_length);
 
-/// Pairs the vertices of stitched edges: adds Cloth::seams and Cloth::seam_pairs, without exact repetitions.
-/// Adds a warning for every stitch whose paired points run in opposite directions as the panels are placed.
+/// Pairs the vertices of stitched edges: adds Cloth::seams and Cloth::seam_pairs, every pair once. Adds a warning for
+/// every stitch whose two sides, as the panels are placed, run in opposite directions.
 /// @param cloth      its outline is complete, with equal sample counts on both sides of every stitch
 /// @param side_of    index into cloth.outline, by panel and edge
 void join_seams(const Pattern& pattern, const std::vector<std::vector<int>>& side_of, Cloth& cloth);

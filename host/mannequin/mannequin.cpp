@@ -44,7 +44,7 @@ void check(const MannequinMeasures& measures, const InputPlace& body)
 constexpr std::array<const char*, 7> part_names{"head",      "neck",     "torso",    "left_arm",
                                                 "right_arm", "left_leg", "right_leg"};
 
-/// Sorts the faces by the part at their centre and names the runs.
+/// Sorts the faces by the body part at their centre and names the resulting ranges.
 void name_parts(TriangleMesh& mesh, const MannequinShape& shape)
 {
     std::array<std::vector<Face>, part_names.size()> groups;

@@ -20,8 +20,9 @@ MannequinMeasures mannequin_size(const std::string& size);
 /// @throws InputError for measures outside the range in which the shape is sound
 TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace& body = {"", 0, 0, "body"});
 
-/// The vertices of a mannequin that make_mannequin() made from these measures, its arms turned about the shoulder
-/// joints: a pose with the same faces. @param arm_angle  below the horizontal [degrees]
+/// Returns the vertices of a mannequin that make_mannequin() made from these measures, with its arms turned about the
+/// shoulder joints. The faces stay the same.
+/// @param arm_angle  below the horizontal [degrees]
 std::vector<Vec3> mannequin_with_arms(const TriangleMesh& mannequin, const MannequinMeasures& measures,
                                       double arm_angle);
 

@@ -6,10 +6,10 @@
 namespace selvage {
 namespace {
 
-/// The drawing's own measures [m]; all numbers of the tables below belong to them.
+/// The measures for which the tables below are drawn [m]. The tables were drawn by hand.
 const MannequinMeasures drawn{1.70, 0.92, 0.74, 1.00, 0.40, 0.35, 0.595, 45};
 
-/// A torso section and how far the bust, waist and hip girths govern its size.
+/// A torso section and the weights with which the bust, waist and hip girths scale it; the weights sum to 1.
 struct TorsoStation {
     TubeStation section;
     double bust = 0, waist = 0, hips = 0;
@@ -28,7 +28,7 @@ const std::vector<TubeStation> neck_table{
     {1.415, 0, 0.017, 0.056, 0.058, 0.056}, {1.452, 0, 0.009, 0.0535, 0.0555, 0.0555},
     {1.495, 0, 0.002, 0.054, 0.056, 0.056}, {1.540, 0, 0.000, 0.056, 0.057, 0.058}};
 
-/// t in parts of the arm's length up to the wrist; u points backwards, v outwards.
+/// t is a fraction of the arm's length up to the wrist; u points backwards, v outwards.
 const std::vector<TubeStation> arm_table{
     {0.00, 0.000, 0, 0.0470, 0.0470, 0.0470},  {0.08, 0.000, 0, 0.0490, 0.0475, 0.0490},
     {0.20, 0.000, 0, 0.0475, 0.0455, 0.0475},  {0.35, 0.000, 0, 0.0440, 0.0425, 0.0425},
@@ -36,7 +36,7 @@ const std::vector<TubeStation> arm_table{
     {0.72, -0.011, 0, 0.0370, 0.0345, 0.0345}, {0.88, -0.021, 0, 0.0295, 0.0255, 0.0255},
     {1.00, -0.027, 0, 0.0265, 0.0215, 0.0215}};
 
-/// t beyond the wrist.
+/// t is the distance beyond the wrist.
 const std::vector<TubeStation> hand_table{{0.035, -0.030, 0, 0.0340, 0.0185, 0.0185},
                                           {0.075, -0.034, 0, 0.0420, 0.0175, 0.0175},
                                           {0.120, -0.038, 0, 0.0385, 0.0150, 0.0150},
@@ -55,7 +55,7 @@ const std::vector<TubeStation> leg_table{
     {0.620, 0.098, -0.002, 0.0720, 0.0780, 0.0720}, {0.710, 0.0955, 0.001, 0.0820, 0.0860, 0.0840},
     {0.780, 0.0925, 0.005, 0.0845, 0.0870, 0.0900}, {0.850, 0.0880, 0.008, 0.0790, 0.0760, 0.0810}};
 
-/// t from below the ankle to the toes, v upwards.
+/// t runs from below the ankle to the toes, v upwards.
 const std::vector<TubeStation> foot_table{
     {-0.030, 0.000, 0.018, 0.0310, 0.05, 0.042}, {0.020, 0.000, 0.018, 0.0325, 0.05, 0.062},
     {0.070, 0.000, 0.018, 0.0370, 0.05, 0.051},  {0.120, 0.003, 0.018, 0.0440, 0.05, 0.032},
@@ -116,7 +116,7 @@ void MannequinShape::draw_arm()
         station.t += length;
         stations.push_back(station);
     }
-    // A hanging arm bows outwards, which keeps it clear of waist and hips.
+    // A hanging arm is bent outwards, which keeps it away from waist and hips.
     const double hanging = std::clamp((measures_.arm_angle - 55) / 25, 0.0, 1.0);
     for (TubeStation& station : stations) {
         const double w = std::clamp((station.t / length - 0.05) / 0.45, 0.0, 1.0);

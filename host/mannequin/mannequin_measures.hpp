@@ -17,7 +17,7 @@ struct MannequinMeasures {
     double arm_angle = 45;         ///< Degrees below the horizontal: 0 is a T-pose, 45 an A-pose; 0 to 80.
 };
 
-/// Where things are on the mannequin, for placing garments. [m]; pairs are {left, right} of the wearer.
+/// Points and heights of the mannequin for placing garments [m]. Pairs are {left, right} of the wearer.
 struct MannequinLandmarks {
     double bust_height = 0, waist_height = 0, hip_height = 0, crotch_height = 0, neck_height = 0;
     double front = 0, back = 0;          ///< Least and greatest y of the torso.

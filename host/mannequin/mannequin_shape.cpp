@@ -24,7 +24,7 @@ double ellipsoid(const Vec3& point, const Vec3& centre, const Vec3& radii)
     return k0 < 1e-9 ? -radii.minCoeff() : k0 * (k0 - 1) / p.cwiseQuotient(radii).norm();
 }
 
-/// Capsule whose radius changes linearly from a to b.
+/// Distance to a capsule whose radius changes linearly from a to b.
 double tapered_capsule(const Vec3& point, const Vec3& a, const Vec3& b, double radius_a, double radius_b)
 {
     const double w = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
@@ -78,7 +78,7 @@ Vec3 MannequinShape::arm_frame(const Vec3& point) const
 double MannequinShape::torso(const Vec3& point) const
 {
     const double s = scale_;
-    // A rounded |x|, so that what is mirrored has no crease at the centre line.
+    // A smooth approximation of |x|, so that mirrored shapes have no crease at the centre line.
     const Vec3 side(std::sqrt(point.x() * point.x() + s * s * 4e-4), point.y(), point.z());
     const double wide = factors_.bust * measures_.bust / 0.92, hip = factors_.hips * measures_.hips;
     double d = torso_.distance(point.z(), point.x(), point.y());
@@ -127,7 +127,7 @@ double MannequinShape::arm(const Vec3& point) const
 double MannequinShape::trunk(const Vec3& point) const
 {
     const double s = scale_, z = point.z();
-    // Wide at the crotch, narrow at the sides, where thigh and hip touch along their length.
+    // The fillet is wide at the crotch and narrow at the sides, where thigh and hip touch along their length.
     const double crease = std::max(0.034 - 0.6 * point.x() * point.x() / (s * s), 0.016);
     double d = z > 0.60 * s ? torso(point) : 1.0;
     if (z > 1.20 * s) {
@@ -142,7 +142,7 @@ double MannequinShape::operator()(const Vec3& point) const
 {
     const double body = trunk(point);
     const Vec3 p = arm_frame(point);
-    // A wide fillet over the shoulder, a narrow one under the arm and further along it: no webbing.
+    // The fillet is wide over the shoulder, and narrow under the arm and further along it, to avoid webbing.
     const double over = smooth_step(-0.05 * scale_, 0.035 * scale_, p.z());
     const double near = 1 - smooth_step(0.10 * scale_, 0.25 * scale_, p.x());
     const double fillet = scale_ * (0.010 + near * (0.010 + 0.060 * over));
@@ -151,7 +151,7 @@ double MannequinShape::operator()(const Vec3& point) const
 
 Vec3 MannequinShape::with_arms_at(double arm_angle, const Vec3& point) const
 {
-    const double blend = 0.03 * scale_;  // Half the width of the skin that stretches [m].
+    const double blend = 0.03 * scale_;  // Half the width of the region between arm and trunk that stretches [m].
     const double share = smooth_step(-blend, blend, trunk(point) - arm(point));
     const double angle = (measures_.arm_angle + share * (arm_angle - measures_.arm_angle)) * std::numbers::pi / 180;
     const Vec3 along(std::cos(angle), 0, -std::sin(angle)), outer(std::sin(angle), 0, std::cos(angle));
@@ -255,7 +255,8 @@ BodyPart MannequinShape::part(const Vec3& point) const
     const bool left = point.x() > 0;
     const Vec3 p = arm_frame(point);
     if (p.x() > 0.02 * s && arm(point) < trunk(point)) return left ? BodyPart::left_arm : BodyPart::right_arm;
-    // Planes: the jaw rises to the back of the head, the neck falls to the front, the groin rises outwards.
+    // Planes divide the parts: the jaw line rises to the back of the head, the neck line falls to the front, the
+    // groin rises outwards.
     if (point.z() - 0.45 * point.y() > 1.490 * s) return BodyPart::head;
     if (point.z() - 0.35 * point.y() > 1.410 * s && std::abs(point.x()) < 0.12 * s) return BodyPart::neck;
     if (point.z() - 0.5 * std::abs(point.x()) < 0.775 * s) return left ? BodyPart::left_leg : BodyPart::right_leg;

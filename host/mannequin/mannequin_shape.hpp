@@ -16,8 +16,9 @@ public:
     double operator()(const Vec3& point) const;  ///< Signed distance [m], first order; negative inside.
     double trunk(const Vec3& point) const;       ///< The same without arms and hands.
 
-    /// Where a point of the surface goes when the arms turn about the shoulder joints: arms whole, the trunk not at
-    /// all, and smoothly in between. @param arm_angle  new angle below the horizontal [degrees]
+    /// Returns where a point of the surface moves when the arms turn about the shoulder joints. The arms turn by the
+    /// full angle, the trunk not at all, with a smooth transition in between.
+    /// @param arm_angle  new angle below the horizontal [degrees]
     Vec3 with_arms_at(double arm_angle, const Vec3& point) const;
 
     BodyPart part(const Vec3& point) const;  ///< Part to which a point on the surface belongs.
@@ -25,7 +26,7 @@ public:
     /// Tape girth [m] of the trunk at a height [m]: the perimeter of the section's convex hull.
     double girth(double height) const;
 
-    /// First point outside along a ray that starts inside, or after `reach` [m].
+    /// Returns the first point outside along a ray that starts inside, but at most `reach` [m] away.
     Vec3 exit_point(const Vec3& start, const Vec3& direction, double reach) const;
 
     MannequinLandmarks landmarks() const;
@@ -35,7 +36,7 @@ private:
     /// Factors on the drawn sections, found by calibrate().
     struct Factors {
         double bust = 1, waist = 1, hips = 1, neck = 1;
-        double joint_x = 0;  ///< Of the shoulder joint [m].
+        double joint_x = 0;  ///< x of the shoulder joint [m].
     };
 
     void draw();
@@ -55,7 +56,7 @@ private:
     Factors factors_;
     double scale_ = 1;        ///< Stature over that of the drawing.
     double arm_scale_ = 1;    ///< Girth of the arms over that of the drawing.
-    double hand_offset_ = 0;  ///< Of the hand from the arm's axis, outwards.
+    double hand_offset_ = 0;  ///< Outward offset of the hand from the arm's axis [m].
     Vec3 joint_ = Vec3::Zero(), along_ = Vec3::Zero(), outer_ = Vec3::Zero();
     SectionTube torso_, neck_, arm_, thumb_, leg_, foot_;
 };

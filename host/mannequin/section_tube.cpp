@@ -11,15 +11,16 @@ using Member = double TubeStation::*;
 
 constexpr std::array<Member, 5> shape_members{&TubeStation::centre_u, &TubeStation::centre_v, &TubeStation::radius_u,
                                               &TubeStation::radius_low, &TubeStation::radius_high};
-constexpr int table_size = 193;
-constexpr int smoothing_passes = 40;  // Blurs over sqrt(passes / 2) = 4.5 rows, about 2 % of the length.
+constexpr int table_size = 193;       // Rows of the interpolation table; chosen by hand.
+constexpr int smoothing_passes = 40;  // Blurs over sqrt(passes / 2) = 4.5 rows, about 2 % of the length; chosen by eye.
 
 double secant(const std::vector<TubeStation>& s, int k, Member member)
 {
     return (s[k + 1].*member - s[k].*member) / (s[k + 1].t - s[k].t);
 }
 
-/// Slope at station k: harmonic mean of the two secants, zero at an extremum, which keeps the curve monotone.
+/// Returns the slope at station k: the harmonic mean of the two secants, or zero at an extremum, which keeps
+/// the curve monotone.
 double slope(const std::vector<TubeStation>& s, int k, Member member)
 {
     const int last = int(s.size()) - 1;
@@ -37,7 +38,7 @@ double interpolate(const std::vector<TubeStation>& s, int k, double t, Member me
            width * w * rest * (slope(s, k, member) * rest - slope(s, k + 1, member) * w);
 }
 
-/// Removes the jumps in curvature at the stations, which show as bands; the ends stay.
+/// Smooths the table but for its ends. This removes the jumps in curvature at the stations, which are visible as bands.
 void smooth(std::vector<TubeStation>& table)
 {
     for (int pass = 0; pass < smoothing_passes; ++pass)

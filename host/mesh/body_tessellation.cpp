@@ -57,7 +57,7 @@ int add_ring(TriangleMesh& mesh, const Vec3& center, double radius, int count)
     return first;
 }
 
-/// Joins two rings of equal count; `lower` is below `upper`, seen from outside.
+/// Joins two rings of equal count by triangles whose outside faces away from the axis; `lower` is below `upper`.
 void join_rings(TriangleMesh& mesh, int lower, int upper, int count)
 {
     for (int k = 0; k < count; ++k) {
@@ -73,11 +73,12 @@ void add_face(TriangleMesh& mesh, int a, int b, int c, bool reversed)
     mesh.faces.push_back({a, b, c});
 }
 
-/// Fills the circle `ring` with ever coarser rings; `upward` is the side from which it is seen.
+/// Fills the circle of vertices `ring` with concentric rings, each with half as many vertices. `upward`: the outside of
+/// the disc is above.
 void add_disc(TriangleMesh& mesh, const Vec3& center, double radius, int ring, int count, bool upward)
 {
     while (count > 8) {
-        radius -= 1.2 * 2 * pi * radius / count;  // rings about as far apart as their vertices
+        radius -= 1.2 * 2 * pi * radius / count;  // the rings are about as far apart as their vertices
         const int half = count / 2, inner = add_ring(mesh, center, radius, half);
         for (int k = 0; k < half; ++k) {
             const int a = ring + 2 * k, b = a + 1, c = ring + (2 * k + 2) % count;
@@ -161,7 +162,7 @@ TriangleMesh cylinder_mesh(const Vec3& center, double radius, double height, int
 
 TriangleMesh cone_mesh(const Vec3& center, double radius, double height, int segment_count)
 {
-    constexpr int rows = 16;  // their heights shrink towards the tip as the rings' edges do
+    constexpr int rows = 16;  // row heights shrink towards the tip in proportion to the rings' edges
     TriangleMesh mesh;
     const int base = add_ring(mesh, center, radius, segment_count);
     int lower = base;

@@ -27,7 +27,7 @@ Triangulation::Triangulation(std::vector<GridPoint> points) : points_(std::move(
 {
     const int point_count = int(points_.size());
     const std::vector<int> order = hilbert_order(points_);
-    // The box: its corners are the last four points until cut_out drops them.
+    // The corners of the bounding box are the last four points until cut_out removes them.
     constexpr int corner = 1 << 27;
     for (const GridPoint& point : {GridPoint{-corner, -corner}, GridPoint{corner, -corner}, GridPoint{corner, corner},
                                    GridPoint{-corner, corner}})
@@ -149,13 +149,14 @@ void Triangulation::restore(const std::vector<int>& triangles)
 
 int Triangulation::locate(const GridPoint& point, int start) const
 {
-    const int step_limit = int(triangles_.size()) + 1;  // a walk in a Delaunay triangulation never comes back
+    const int step_limit = int(triangles_.size()) + 1;  // a walk in a Delaunay triangulation visits no triangle twice
     int triangle = start, from = -1;
     for (int step = 0; step < step_limit; ++step) {
         const Triangle& t = triangles_[triangle];
         bool inside = true;
         int onward = -1;
-        // Alternating the first side keeps the walk from circling where the triangulation is not Delaunay.
+        // Each step begins with another side, which keeps the walk from cycling where the triangulation
+        // is not Delaunay.
         for (int k = 0, i = step % 3; k < 3 && onward < 0; ++k, i = next(i)) {
             if (t.neighbour[i] == from && from >= 0) continue;
             if (doubled_area(points_[t.vertex[next(i)]], points_[t.vertex[previous(i)]], point) >= 0) continue;
@@ -196,7 +197,8 @@ void Triangulation::split_side(Side side, int vertex)
     for (const int part : {side.triangle, t2, across, u2}) stack_.push_back({part, 0});
 }
 
-// Returns -1, or the vertex that is already at this place, or -2 where a boundary side is in the way.
+// Returns -1 if the vertex is inserted, the vertex that is already at this point, or -2 if the point is
+// on the boundary.
 int Triangulation::insert_vertex(int vertex, int triangle)
 {
     const Triangle& t = triangles_[triangle];
@@ -244,7 +246,8 @@ void Triangulation::star(int vertex, std::vector<int>& triangles) const
     }
 }
 
-// Cuts one corner off the polygon around a vertex by flipping the spoke that leads to it.
+// Lowers the degree of a vertex by one: flips one of its edges where both new triangles are valid. Returns false if
+// there is no such edge.
 bool Triangulation::flip_ear(const std::vector<int>& ring, int vertex)
 {
     for (const int triangle : ring) {
@@ -311,7 +314,8 @@ std::optional<Triangulation::Side> Triangulation::find_side(int from, int to) co
     return std::nullopt;
 }
 
-// Walks along a polygon side that is not yet in the triangulation and lists the sides that it crosses.
+// Lists the triangle sides that a polygon side, which is not yet in the triangulation, crosses. Returns two polygon
+// sides that cross or touch if the side meets a vertex or a fixed side on the way.
 Crossing Triangulation::collect_crossed(int side, int polygon_size, std::vector<std::array<int, 2>>& crossed) const
 {
     const int from = side, to = (side + 1) % polygon_size;
@@ -338,7 +342,8 @@ Crossing Triangulation::collect_crossed(int side, int polygon_size, std::vector<
         const int tip_index = opposite_index(u, at.triangle), tip = u.vertex[tip_index];
         if (tip == to) return std::nullopt;
         if (left_of(tip) == 0) return {{side, tip}};
-        // The side opposite to the left vertex leads on if the tip lies to the left, and the other way round.
+        // The polygon side leaves the next triangle opposite its left vertex if the tip lies to the left, else opposite
+        // the right one.
         at = {across, left_of(tip) > 0 ? index_of(u, left) : index_of(u, right)};
     }
 }

@@ -7,8 +7,9 @@
 
 namespace selvage {
 
-/// A Delaunay triangulation on the integer grid that can be cut to a polygon, refined and thinned.
-/// Incremental insertion with edge flips (Lawson 1977), polygon sides recovered by edge flips (Sloan 1993).
+/// A Delaunay triangulation on the integer grid. It can be cut to a polygon, and vertices can be inserted, moved and
+/// removed. Points are inserted one by one with edge flips (Lawson 1977), and polygon sides are recovered by edge
+/// flips (Sloan 1993).
 class Triangulation {
 public:
     struct Triangle {
@@ -29,22 +30,22 @@ public:
     ///          triangulation is unusable; nothing if the polygon is simple
     std::optional<std::array<int, 2>> cut_out(int polygon_size);
 
-    /// Returns the triangle that contains the point, walking from triangle `start`; -1 if the way is blocked.
+    /// Returns the triangle that contains the point, walking from triangle `start`; -1 if the walk meets the boundary.
     int locate(const GridPoint& point, int start) const;
 
     /// Inserts a point into the triangle that contains it and restores the Delaunay property.
     /// @returns the new vertex, or -1 if the point coincides with a vertex or lies on the boundary
     int insert(const GridPoint& point, int triangle);
 
-    /// Removes a vertex that is not on the boundary; returns false if rounding to the grid does not allow it.
+    /// Removes a vertex. Returns false if it is on the boundary or if rounding to the grid leaves no valid flip.
     bool remove(int vertex);
 
-    /// Moves a vertex. No triangle may turn over; a restore has to follow.
+    /// Moves a vertex. No triangle may become inverted; call restore() afterwards.
     void move(int vertex, const GridPoint& point) { points_[vertex] = point; }
 
     /// Flips sides until every triangle is Delaunay within the boundary.
     void restore();
-    /// The same, beginning with the sides of the given triangles; touched() then lists what changed.
+    /// Does the same from the sides of the given triangles outwards; touched() then lists the changed triangles.
     void restore(const std::vector<int>& triangles);
 
     /// Collects the triangles around a vertex, counter-clockwise.

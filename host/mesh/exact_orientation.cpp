@@ -6,11 +6,12 @@
 namespace selvage {
 namespace {
 
-// A number as a sum of doubles that do not overlap, the smallest first.
+// A number as an exact sum of doubles whose bits do not overlap, the smallest first (Shewchuk 1997).
 using Expansion = std::vector<double>;
 
-// Adds one double: every addition's error stays behind as a smaller part. Not inlined, since a product that is fused
-// with the addition would no longer be the rounded one whose error is known.
+// Adds one double exactly: the rounding error of every addition is kept as a smaller component of the sum. The function
+// must not be inlined. The compiler could otherwise fuse a product with this addition, and the product would no longer
+// be the rounded one whose error add_product has computed.
 [[gnu::noinline]] void add(Expansion& sum, double value)
 {
     std::size_t kept = 0;
@@ -34,7 +35,7 @@ void add_product(Expansion& sum, double x, double y, double z)
     }
 }
 
-// det(x, y, z), times a sign.
+// Adds sign * det(x, y, z).
 void add_determinant(Expansion& sum, const Vec3& x, const Vec3& y, const Vec3& z, double sign)
 {
     for (int i = 0; i < 3; ++i) {
@@ -51,7 +52,8 @@ int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
     const Vec3 u = b - a, v = c - a, w = d - a;
     const double determinant = u.cross(v).dot(w);
     const double magnitude = u.cwiseAbs().sum() * v.cwiseAbs().sum() * w.cwiseAbs().sum();
-    // Twice Shewchuk's bound of (7 + 56 eps) eps, on an upper bound of the permanent.
+    // Beyond this the rounded determinant has the right sign: twice Shewchuk's bound of (7 + 56 eps) eps, times an
+    // upper bound of the permanent.
     if (std::abs(determinant) > 2e-15 * magnitude) return determinant > 0 ? 1 : -1;
     // det(b - a, c - a, d - a) = det(b, c, d) - det(a, c, d) + det(a, b, d) - det(a, b, c)
     Expansion sum;

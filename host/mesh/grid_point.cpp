@@ -8,9 +8,9 @@
 namespace selvage {
 namespace {
 
-constexpr double half_span = 1 << 26;
+constexpr double half_span = 1 << 26;  // grid steps from the middle of the points to the farthest one
 
-// Position of a 16-bit cell along the Hilbert curve, found from the coarsest quadrant down.
+// Returns the position of a cell along the Hilbert curve of 2^16 x 2^16 cells, from the coarsest quadrant down.
 std::uint32_t hilbert_index(std::uint32_t x, std::uint32_t y)
 {
     constexpr std::uint32_t side = 1u << 16;
@@ -40,7 +40,7 @@ bool in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const
     const double magnitude = a2 * (std::abs(bx * cy) + std::abs(cx * by)) +
                              b2 * (std::abs(cx * ay) + std::abs(ax * cy)) +
                              c2 * (std::abs(ax * by) + std::abs(bx * ay));
-    // The differences are exact, so Shewchuk's (1997) bound of (10 + 96 eps) eps holds with room to spare.
+    // The differences are exact, so a bound of (10 + 96 eps) eps would suffice (Shewchuk 1997); this one is larger.
     if (std::abs(determinant) > 2e-15 * magnitude) return determinant > 0;
 
     __extension__ using Wide = __int128;  // differences have 30 bits, so the determinant stays below 2^124

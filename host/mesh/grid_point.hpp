@@ -24,7 +24,7 @@ bool in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const
 /// Maps plane coordinates [m] to the grid and back.
 class GridMap {
 public:
-    /// @param points  what has to fit: it spans at most 2^26 steps to each side of the middle; at least one point
+    /// @param points  at least one; they span at most 2^26 grid steps to each side of their middle
     explicit GridMap(const std::vector<Vec2>& points);
     GridPoint to_grid(const Vec2& point) const;
     Vec2 to_plane(const GridPoint& point) const;
@@ -35,7 +35,7 @@ private:
     double step_;
 };
 
-/// Returns the indices of the points along a Hilbert curve: neighbours in the order are neighbours in the plane.
+/// Returns the indices of the points along a Hilbert curve, so that points close in the order are close in the plane.
 std::vector<int> hilbert_order(const std::vector<GridPoint>& points);
 
 }  // namespace selvage

@@ -10,16 +10,25 @@ namespace {
 
 using Triangle = Triangulation::Triangle;
 
-constexpr int repair_passes = 10;
-constexpr double fill_below = 0.37;  // sine of the angle below which a triangle may get a further vertex: 22 degrees
-constexpr int relax_sweeps = 3;
-constexpr int search_steps = 24;
+// How repair() improves triangles. Chosen by hand, not measured one by one; the unit test of the angles of panel meshes
+// checks what they achieve together.
+struct RepairTuning {
+    static constexpr int max_passes = 10;            // over all triangles
+    static constexpr int max_stalled_passes = 2;     // passes in a row that leave no fewer bad triangles
+    static constexpr double insert_sine = 0.37;      // sine of the angle (22 degrees) below which a vertex is inserted
+    static constexpr double min_improvement = 0.02;  // of the smallest sine, for a removal or insertion to be kept
+    static constexpr int relax_sweeps = 3;           // over the vertices around a bad triangle
+    static constexpr int max_trials = 24;            // of the pattern search for one vertex
+    static constexpr double first_step = 0.25;       // of the pattern search, of the wanted edge length
+    static constexpr double last_step = 0.02;        // of the pattern search, of the wanted edge length
+};
+constexpr double min_sine_after_smoothing = 0.02;  // a triangle below counts as inverted; chosen by hand, not measured
 
 Vec2 as_vector(const GridPoint& point) { return Vec2(point.x, point.y); }
 
 GridPoint as_grid(const Vec2& point) { return {int(std::lround(point.x())), int(std::lround(point.y()))}; }
 
-// The sine of the smallest angle: twice the area over the product of the two longer sides.
+// Returns the sine of the smallest angle: twice the area over the product of the two longer sides.
 double smallest_sine(const GridPoint& a, const GridPoint& b, const GridPoint& c)
 {
     const Vec2 u = as_vector(b) - as_vector(a), v = as_vector(c) - as_vector(a);
@@ -34,7 +43,7 @@ double smallest_sine(const Triangulation& mesh, int triangle)
     return smallest_sine(mesh.points()[corner[0]], mesh.points()[corner[1]], mesh.points()[corner[2]]);
 }
 
-// The worst of some triangles, skipping free slots.
+// Returns the smallest sine of some triangles, without free slots.
 double worst_sine(const Triangulation& mesh, const std::vector<int>& triangles)
 {
     double worst = 1;
@@ -55,7 +64,8 @@ Vec2 smoothing_centre(const Triangle& triangle, const std::array<Vec2, 3>& corne
     return corner[0] + Vec2(-turned.y(), turned.x());
 }
 
-// Returns where the vertices should go: the means of the centres around them, weighted with area and density.
+// Returns the smoothed positions of the vertices: the means of the triangle centres around them, weighted with
+// area and density.
 std::vector<Vec2> smoothed_places(const PanelDraft& draft)
 {
     const Triangulation& mesh = draft.triangulation;
@@ -86,15 +96,16 @@ std::vector<Vec2> smoothed_places(const PanelDraft& draft)
     return sum;
 }
 
-// Takes back moves until no triangle is turned over.
-void undo_flipped(Triangulation& mesh, const std::vector<GridPoint>& before)
+// Undoes vertex moves until no triangle is inverted or nearly flat.
+void undo_inverting_moves(Triangulation& mesh, const std::vector<GridPoint>& before)
 {
     for (bool changed = true; changed;) {
         changed = false;
         for (const Triangle& triangle : mesh.triangles()) {
             if (triangle.vertex[0] < 0) continue;
             const auto [a, b, c] = triangle.vertex;
-            if (smallest_sine(mesh.points()[a], mesh.points()[b], mesh.points()[c]) > 0.02) continue;
+            if (smallest_sine(mesh.points()[a], mesh.points()[b], mesh.points()[c]) > min_sine_after_smoothing)
+                continue;
             for (const int vertex : triangle.vertex)
                 if (!(mesh.points()[vertex] == before[vertex])) {
                     mesh.move(vertex, before[vertex]);
@@ -104,7 +115,8 @@ void undo_flipped(Triangulation& mesh, const std::vector<GridPoint>& before)
     }
 }
 
-// Searches around a vertex for the place with the best worst triangle; returns whether it moved.
+// Pattern search for the position of a vertex that maximises the smallest angle around it; returns whether
+// the vertex moved.
 bool improve_vertex(PanelDraft& draft, int vertex, std::vector<int>& ring)
 {
     Triangulation& mesh = draft.triangulation;
@@ -113,8 +125,8 @@ bool improve_vertex(PanelDraft& draft, int vertex, std::vector<int>& ring)
     Vec2 best = start;
     double quality = worst_sine(mesh, ring);
     const double size = draft.size.at(start);
-    double step = 0.25 * size;
-    for (int trial = 0; trial < search_steps && step > 0.02 * size; ++trial) {
+    double step = RepairTuning::first_step * size;
+    for (int trial = 0; trial < RepairTuning::max_trials && step > RepairTuning::last_step * size; ++trial) {
         const Vec2 middle = best;
         for (int direction = 0; direction < 8; ++direction) {
             const double angle = direction * std::numbers::pi / 4;
@@ -138,17 +150,17 @@ class Repair {
 public:
     Repair(PanelDraft& draft, double sine) : draft_(draft), mesh_(draft.triangulation), sine_(sine) {}
 
-    // Returns the number of triangles that were bad before.
+    // Returns the number of bad triangles found.
     int pass()
     {
         int bad = 0;
-        const int count = int(mesh_.triangles().size());  // triangles made on the way are for the next pass
+        const int count = int(mesh_.triangles().size());  // triangles created in this pass wait for the next one
         for (int triangle = 0; triangle < count; ++triangle) {
             if (good(triangle)) continue;
             ++bad;
             relax_around({triangle});
             if (good(triangle) || thin_out(triangle)) continue;
-            if (smallest_sine(mesh_, triangle) < fill_below) fill_in(triangle);
+            if (smallest_sine(mesh_, triangle) < RepairTuning::insert_sine) fill_in(triangle);
         }
         return bad;
     }
@@ -161,7 +173,7 @@ private:
 
     bool interior(int vertex) const { return vertex >= draft_.boundary_count; }
 
-    // Moves the vertices of the triangles and of those around them, one after the other, to better places.
+    // Improves, one after the other, the positions of the vertices of the given triangles and of their neighbours.
     void relax_around(const std::vector<int>& triangles)
     {
         std::vector<int> vertices;
@@ -175,14 +187,14 @@ private:
             }
         std::sort(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        for (int sweep = 0; sweep < relax_sweeps; ++sweep)
+        for (int sweep = 0; sweep < RepairTuning::relax_sweeps; ++sweep)
             for (const int vertex : vertices) {
                 mesh_.star(vertex, ring_);
                 if (worst_sine(mesh_, ring_) < sine_) improve_vertex(draft_, vertex, ring_);
             }
     }
 
-    // Removes one corner if that is an improvement.
+    // Removes one corner if the triangles around it improve; returns whether one was removed.
     bool thin_out(int triangle)
     {
         const std::array<int, 3> corner = mesh_.triangles()[triangle].vertex;
@@ -200,7 +212,7 @@ private:
         return false;
     }
 
-    // Inserts a vertex near the triangle if that is an improvement.
+    // Inserts a vertex near the triangle if the triangles around it improve.
     void fill_in(int triangle)
     {
         const std::array<int, 3> corner = mesh_.triangles()[triangle].vertex;
@@ -230,10 +242,10 @@ private:
         return 0;
     }
 
-    // Returns whether the triangles are better than `before`, after moving their corners if need be.
+    // Returns whether the triangles are better than `before`, if necessary after moving their corners.
     bool improved_after_moving(const std::vector<int>& triangles, double before)
     {
-        const double wanted = std::min(sine_, before + 0.02);
+        const double wanted = std::min(sine_, before + RepairTuning::min_improvement);
         if (worst_sine(mesh_, triangles) >= wanted) return true;
         std::vector<int> corners;
         for (const int triangle : triangles)
@@ -269,7 +281,7 @@ void smooth(PanelDraft& draft, int rounds)
         const std::vector<GridPoint> before = mesh.points();
         for (int vertex = draft.boundary_count; vertex < int(places.size()); ++vertex)
             if (mesh.alive(vertex)) mesh.move(vertex, as_grid(places[vertex]));
-        undo_flipped(mesh, before);
+        undo_inverting_moves(mesh, before);
         mesh.restore();
     }
 }
@@ -278,7 +290,7 @@ void repair(PanelDraft& draft, double degrees)
 {
     Repair work(draft, std::sin(degrees * std::numbers::pi / 180));
     int fewest = std::numeric_limits<int>::max(), stalled = 0;
-    for (int pass = 0; pass < repair_passes && stalled < 2; ++pass) {
+    for (int pass = 0; pass < RepairTuning::max_passes && stalled < RepairTuning::max_stalled_passes; ++pass) {
         const int bad = work.pass();
         if (bad == 0) return;
         stalled = bad < fewest ? 0 : stalled + 1;

@@ -11,19 +11,28 @@
 namespace selvage {
 namespace {
 
-// Circumradius over wanted edge length above which a triangle gets a vertex at its circumcentre. Chosen so
-// that the mean edge comes out at the target.
-constexpr double open_radius = 0.765;
-constexpr double nearest_vertex = 0.75;  // of the open radius: what a new vertex keeps from the others
-constexpr double nearest_side = 0.4;     // of the open radius: what it keeps from the boundary,
-constexpr double flattest = 0.25;        // and of the boundary side's length
-constexpr double jitter = 0.15;          // of the open radius: breaks up the symmetry of symmetric panels
-constexpr int smoothing_rounds = 8;
-constexpr double accepted_angle = 30;  // [degrees]
-// A mesh with a triangle below this angle [degrees] is made again with other random places, if it is small.
-constexpr double poor_angle = 22;
-constexpr int attempts = 6;
-constexpr int small_mesh = 20000;  // vertices
+// Where refine() puts new vertices. Chosen by hand; the unit test of the angles and edges of panel meshes checks what
+// the values achieve together.
+struct RefinementTuning {
+    // Circumradius over wanted edge length above which a triangle is split at its circumcentre [1]. Chosen so that the
+    // mean edge has the wanted length.
+    static constexpr double max_circumradius = 0.765;
+    // Distances that a new vertex keeps and moves that it makes, over the largest circumradius [1].
+    static constexpr double vertex_distance = 0.75;   // to other vertices
+    static constexpr double boundary_distance = 0.4;  // to the boundary
+    static constexpr double jitter = 0.15;            // random displacement, which breaks the symmetry of panels
+    static constexpr double min_height = 0.25;        // distance to a boundary side over the length of that side [1]
+};
+
+// How often a mesh is improved. Chosen by hand, not measured one by one; see RefinementTuning.
+struct AttemptTuning {
+    static constexpr int smoothing_rounds = 8;
+    static constexpr double good_angle = 30;  // triangles below it are repaired [degrees]
+    // A mesh with a triangle below this angle [degrees] is made again with other random positions, if it is small.
+    static constexpr double poor_angle = 22;
+    static constexpr int max_attempts = 6;
+    static constexpr int max_retried = 20000;  // size of a small mesh [vertices]
+};
 
 Vec2 as_vector(const GridPoint& point) { return Vec2(point.x, point.y); }
 
@@ -55,14 +64,15 @@ bool near_side(const Vec2& point, const Vec2& a, const Vec2& b, double radius)
 {
     const double along = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
     const double distance = (point - a - along * (b - a)).norm();
-    return distance < nearest_side * radius || (along > 0 && along < 1 && distance < flattest * (b - a).norm());
+    return distance < RefinementTuning::boundary_distance * radius ||
+           (along > 0 && along < 1 && distance < RefinementTuning::min_height * (b - a).norm());
 }
 
-// Returns whether a new vertex in this triangle would be too close to the triangle's surroundings.
+// Returns whether a new vertex in this triangle would be too close to vertices or boundary sides around it.
 bool crowded(const Triangulation& triangulation, int triangle, const Vec2& place, double radius)
 {
     const auto too_near = [&](int vertex) {
-        return (as_vector(triangulation.points()[vertex]) - place).norm() < nearest_vertex * radius;
+        return (as_vector(triangulation.points()[vertex]) - place).norm() < RefinementTuning::vertex_distance * radius;
     };
     const Triangulation::Triangle& t = triangulation.triangles()[triangle];
     for (int i = 0; i < 3; ++i) {
@@ -85,8 +95,8 @@ bool crowded(const Triangulation& triangulation, int triangle, const Vec2& place
     return false;
 }
 
-// Puts vertices into the circumcentres of triangles that are too large (Chew 1989). What results is a
-// covering of the panel by points that keep their distance, at random places that depend on `seed`.
+// Inserts vertices near the circumcentres of triangles that are too large (Chew 1989). The result is a set of points at
+// random positions, which depend on `seed`, with bounds on the distance between neighbours.
 void refine(PanelDraft& draft, int seed)
 {
     Triangulation& mesh = draft.triangulation;
@@ -103,10 +113,10 @@ void refine(PanelDraft& draft, int seed)
         const Vec2 middle = (u * v.squaredNorm() - v * u.squaredNorm()) / (2 * doubled);
         const Vec2 centre(a.x() - middle.y(), a.y() + middle.x());
         if (centre.cwiseAbs().maxCoeff() > (1 << 27)) continue;
-        const double radius = open_radius * draft.size.at(centre);
+        const double radius = RefinementTuning::max_circumradius * draft.size.at(centre);
         if (middle.norm() <= radius) continue;
         const std::uint64_t salt = std::uint64_t(corner[0]) + (std::uint64_t(seed) << 32);
-        const Vec2 place = centre + jitter * radius * scatter(salt, mesh.points().size());
+        const Vec2 place = centre + RefinementTuning::jitter * radius * scatter(salt, mesh.points().size());
         const int inside = mesh.locate(as_grid(place), triangle);
         if (inside < 0 || crowded(mesh, inside, place, radius)) continue;
         if (mesh.insert(as_grid(place), inside) < 0) continue;
@@ -122,7 +132,8 @@ std::vector<Vec2> in_grid_steps(const std::vector<Vec2>& polygon, const GridMap&
     return steps;
 }
 
-// The smallest angle of all triangles but those that the outline alone determines.
+// Returns the smallest angle [degrees] of all triangles but those with two sides on the outline, which
+// determines their angles.
 double worst_angle(const Triangulation& mesh)
 {
     double worst = 60;
@@ -135,18 +146,19 @@ double worst_angle(const Triangulation& mesh)
     return worst;
 }
 
-// Meshes the empty panel; where the angles stay poor, takes the best of several attempts.
+// Meshes the empty panel. If angles stay poor, returns the best of several attempts.
 PanelDraft best_mesh(const PanelDraft& empty)
 {
     PanelDraft best = empty;
     double best_angle = -1;
-    for (int attempt = 0; attempt < attempts; ++attempt) {
+    for (int attempt = 0; attempt < AttemptTuning::max_attempts; ++attempt) {
         PanelDraft draft = empty;
         refine(draft, attempt);
-        smooth(draft, smoothing_rounds);
-        repair(draft, accepted_angle);
+        smooth(draft, AttemptTuning::smoothing_rounds);
+        repair(draft, AttemptTuning::good_angle);
         const double angle = worst_angle(draft.triangulation);
-        const bool finished = angle >= poor_angle || int(draft.triangulation.points().size()) > small_mesh;
+        const bool finished =
+            angle >= AttemptTuning::poor_angle || int(draft.triangulation.points().size()) > AttemptTuning::max_retried;
         if (angle > best_angle) {
             best_angle = angle;
             best = std::move(draft);

@@ -11,8 +11,8 @@ struct PanelMesh {
     std::vector<Face> faces;     ///< Counter-clockwise.
 };
 
-/// Fills a polygon with triangles of about equal edges, irregularly, so that no direction is preferred.
-/// The polygon's sides are kept whole; near sides shorter than `edge_length` the triangles are smaller.
+/// Fills a polygon with an irregular mesh of about equal edges, in which no direction is preferred. The polygon's sides
+/// are not divided; near sides shorter than `edge_length` the triangles are smaller.
 /// @param polygon      counter-clockwise, not crossing itself [m]
 /// @param edge_length  target edge length [m], > 0
 /// @throws std::invalid_argument if sides of the polygon cross or touch

@@ -8,7 +8,7 @@
 namespace selvage {
 namespace {
 
-// Which triangles have an area: those without are on a line and meet nothing.
+// Marks the triangles that have an area. Degenerate triangles count as intersecting nothing.
 std::vector<char> with_area(const TriangleTree& mesh, std::size_t count)
 {
     std::vector<char> result(count);
@@ -21,7 +21,7 @@ int shared_corners(const Face& f, const Face& g)
     return int(std::count_if(f.begin(), f.end(), [&](int v) { return std::find(g.begin(), g.end(), v) != g.end(); }));
 }
 
-// True if the edge of f that lies opposite its corner in g meets g.
+// True if the edge of f opposite the corner that f shares with g intersects g.
 bool far_edge_meets(const TriangleTree& mesh, int f, int g)
 {
     const Face &corners = mesh.face(f), &others = mesh.face(g);
@@ -33,10 +33,11 @@ bool far_edge_meets(const TriangleTree& mesh, int f, int g)
     return false;
 }
 
-// A plane across the line between two triangles that has each on its side, and through the corner that they may share,
-// spares the exact tests: flat cloth has many neighbours, and those in one plane are the dearest.
+// Looks for a separating plane perpendicular to the line between the centroids of two triangles; if they share a
+// corner, the plane must pass through it. Such a plane spares the exact predicates. Most pairs are neighbours in nearly
+// flat cloth, and coplanar triangles need the most expensive predicates.
 // @param shared  a corner of both, or -1
-bool plane_between(const TriangleTree& a, int f, const TriangleTree& b, int g, int shared)
+bool are_separated(const TriangleTree& a, int f, const TriangleTree& b, int g, int shared)
 {
     const Triangle p = a.triangle(f), q = b.triangle(g);
     const Vec3 middle = (q[0] + q[1] + q[2]) / 3, across = (p[0] + p[1] + p[2]) / 3 - middle;
@@ -46,7 +47,7 @@ bool plane_between(const TriangleTree& a, int f, const TriangleTree& b, int g, i
         if (a.face(f)[k] != shared) least = std::min(least, across.dot(p[k] - middle));
         if (b.face(g)[k] != shared) most = std::max(most, across.dot(q[k] - middle));
     }
-    const double margin = 1e-13 * size * across.norm();  // hundreds of times the rounding of these sums
+    const double margin = 1e-13 * size * across.norm();  // hundreds of times the rounding error of these sums
     if (shared < 0) return least > most + margin;
     const double at = across.dot(a.vertex(shared) - middle);
     return least > at + margin && most < at - margin;
@@ -64,7 +65,7 @@ std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertic
         if (!has_area[a] || !has_area[b]) return false;
         const int shared = shared_corners(mesh.face(a), mesh.face(b));
         if (shared > 1) return false;
-        if (plane_between(mesh, a, mesh, b, shared == 1 ? shared_corner(mesh.face(a), mesh.face(b)) : -1)) return false;
+        if (are_separated(mesh, a, mesh, b, shared == 1 ? shared_corner(mesh.face(a), mesh.face(b)) : -1)) return false;
         if (shared == 0) return triangles_meet(mesh.triangle(a), mesh.triangle(b));
         return far_edge_meets(mesh, a, b) || far_edge_meets(mesh, b, a);
     });
@@ -81,7 +82,7 @@ std::vector<IntersectingPair> IntersectionTarget::intersections(const std::vecto
     const TriangleTree mine(vertices, faces);
     const std::vector<char> mine_has_area = with_area(mine, faces.size());
     return mine.pairs_with(tree_, [&](int a, int b) {
-        return mine_has_area[a] && has_area_[b] && !plane_between(mine, a, tree_, b, -1) &&
+        return mine_has_area[a] && has_area_[b] && !are_separated(mine, a, tree_, b, -1) &&
                triangles_meet(mine.triangle(a), tree_.triangle(b));
     });
 }

@@ -6,16 +6,17 @@
 
 namespace selvage {
 
-/// Two triangles that meet, by their indices.
+/// The indices of two triangles that intersect.
 using IntersectingPair = TrianglePair;
 
-/// Finds every pair of a mesh's triangles that intersect, by exact predicates. Pairs that share a corner count if an
-/// edge of one that does not end there meets the other; pairs that share an edge, and triangles without area, do not.
+/// Finds every pair of a mesh's triangles that intersect, by exact predicates. A pair that shares a corner counts only
+/// if the edge of one triangle opposite that corner meets the other triangle. Pairs that share an edge and triangles
+/// without area do not count.
 /// @param vertices  finite positions [m]
 /// @returns pairs with the smaller index first, sorted
 std::vector<IntersectingPair> self_intersections(const std::vector<Vec3>& vertices, const std::vector<Face>& faces);
 
-/// A mesh that others are tested against, again and again.
+/// A mesh whose tree is built once, for repeated intersection tests with other meshes.
 class IntersectionTarget {
 public:
     explicit IntersectionTarget(TriangleMesh mesh);

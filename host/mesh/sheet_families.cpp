@@ -11,10 +11,11 @@
 namespace selvage {
 namespace {
 
-constexpr double jitter = 0.27;       // of the grid spacing, for irregular meshes
-constexpr double rim_distance = 0.6;  // of the edge length: inner points of a disc stay so far from its rim
+// Chosen by hand; not measured.
+constexpr double jitter = 0.27;       // of irregular meshes, over the grid spacing [1]
+constexpr double rim_distance = 0.6;  // least, of a disc's inner points, over the edge length [1]
 
-// A number in [-1, 1] that depends on the index only (Steele, Lea and Flood 2014, SplitMix64).
+// Returns a number in [-1, 1] that depends on the index only (Steele, Lea and Flood 2014, SplitMix64).
 double scatter(std::uint64_t index)
 {
     std::uint64_t bits = (index + 1) * 0x9e3779b97f4a7c15ull;
@@ -28,7 +29,7 @@ Vec2 scattered(int vertex)
     return jitter * Vec2(scatter(2 * std::uint64_t(vertex)), scatter(2 * std::uint64_t(vertex) + 1));
 }
 
-// Points row by row, from -warp to +warp and from -weft to +weft.
+// Returns points row by row, from -warp to +warp and from -weft to +weft.
 SheetMesh grid_points(double width, double height, int columns, int rows)
 {
     SheetMesh mesh;
@@ -38,7 +39,7 @@ SheetMesh grid_points(double width, double height, int columns, int rows)
     return mesh;
 }
 
-// Triangulates a grid whose points inside are jittered. The rim is put first for the triangulation.
+// Triangulates a grid whose interior points are jittered. triangulate_points() needs the boundary points first.
 void irregular_faces(SheetMesh& mesh, int columns, int rows, const Vec2& spacing)
 {
     std::vector<int> order;
@@ -85,7 +86,7 @@ void diagonal_faces(SheetMesh& mesh, const std::string& family, int columns, int
         }
 }
 
-// Each row of the grid is followed by the middles of its squares, so that neighbours stay near in memory.
+// Each row of grid points is followed by the midpoints of its squares, so that neighbours are close in memory.
 SheetMesh cross_mesh(double width, double height, int columns, int rows)
 {
     const Vec2 spacing(width / (columns - 1), height / (rows - 1));
@@ -132,7 +133,8 @@ SheetMesh equilateral_mesh(double width, double height, int columns)
     return mesh;
 }
 
-// Points of a lattice that covers the disc, row by row; every second row of triangles is shifted.
+// Returns the points of a lattice inside the disc, row by row. In `equilateral` every second row is shifted by
+// half a spacing.
 std::vector<Vec2> disc_lattice(const std::string& family, double radius, double spacing)
 {
     const bool triangles = family == "equilateral";

@@ -6,12 +6,17 @@
 namespace selvage {
 namespace {
 
-constexpr double growth = 0.35;     // neighbouring triangles differ by about this much
-constexpr double short_side = 0.9;  // of the target; longer sides do not grade the mesh
-// A lone short side is met by triangles with one short edge: that is better than small triangles at its long
-// neighbours.
-constexpr double steepest = 0.4;
-constexpr double largest_grid = 4e6;  // cells
+// Chosen by hand, not measured one by one; the unit test of the angles and edges of panel meshes checks what the values
+// achieve together with those of the mesher.
+struct SizeFieldTuning {
+    static constexpr double growth = 0.35;     // slope of the edge length over the distance [1]
+    static constexpr double short_side = 0.9;  // sides longer than this times the target do not grade the mesh [1]
+    // Least ratio of the edge length at a point to the longer of its two sides [1]. A single short side then gets
+    // triangles with one short edge, which is better than many small triangles along its long neighbours.
+    static constexpr double min_side_ratio = 0.4;
+    static constexpr double cells_per_target = 8;  // target over the least cell width [1]
+    static constexpr double max_cells = 4e6;       // of the grid: 16 MB
+};
 
 }  // namespace
 
@@ -25,13 +30,15 @@ SizeField::SizeField(const std::vector<Vec2>& polygon, double target) : target_(
         high = high.cwiseMax(polygon[i]);
         const double ahead = (polygon[i] - polygon[(i + 1) % count]).norm();
         const double behind = (polygon[i] - polygon[(i + count - 1) % count]).norm();
-        const double spacing = std::max(std::min(ahead, behind), steepest * std::max(ahead, behind));
-        if (spacing < short_side * target) sources_.push_back({polygon[i], spacing});
+        const double spacing =
+            std::max(std::min(ahead, behind), SizeFieldTuning::min_side_ratio * std::max(ahead, behind));
+        if (spacing < SizeFieldTuning::short_side * target) sources_.push_back({polygon[i], spacing});
         shortest = std::min(shortest, spacing);
     }
     if (sources_.empty()) return;
     const Vec2 extent = high - low_;
-    cell_ = std::max({shortest, target / 8, std::sqrt(extent.x() * extent.y() / largest_grid)});
+    cell_ = std::max({shortest, target / SizeFieldTuning::cells_per_target,
+                      std::sqrt(extent.x() * extent.y() / SizeFieldTuning::max_cells)});
     columns_ = int(extent.x() / cell_) + 1;
     rows_ = int(extent.y() / cell_) + 1;
     nearest_.assign(std::size_t(columns_) * rows_, -1);
@@ -40,10 +47,11 @@ SizeField::SizeField(const std::vector<Vec2>& polygon, double target) : target_(
 
 double SizeField::from(int source, const Vec2& point) const
 {
-    return sources_[source].spacing + growth * (point - sources_[source].place).norm();
+    return sources_[source].spacing + SizeFieldTuning::growth * (point - sources_[source].place).norm();
 }
 
-// Two sweeps over the grid hand every cell the best source of its neighbours (Danielsson 1980).
+// Finds for every cell the source that gives the smallest edge length there: two sweeps over the grid pass sources on
+// from cell to cell (Danielsson 1980).
 void SizeField::spread_sources()
 {
     const auto offer = [&](int column, int row, int source) {

@@ -5,14 +5,14 @@
 
 namespace selvage {
 
-/// The edge length wanted at each place of a panel: the target, but shorter near short boundary sides,
+/// The wanted edge length at each point of a panel: the target, but less near short boundary sides,
 ///     s(x) = min(target, min_i(spacing_i + growth |x - p_i|)).
 class SizeField {
 public:
     /// @param polygon  closed boundary, sampled; any unit of length
     /// @param target   edge length away from short sides, same unit
     SizeField(const std::vector<Vec2>& polygon, double target);
-    double at(const Vec2& point) const;
+    double at(const Vec2& point) const;  ///< Wanted edge length at a point, same unit.
 
 private:
     struct Source {
@@ -27,7 +27,7 @@ private:
     Vec2 low_;
     double cell_ = 0;
     int columns_ = 0, rows_ = 0;
-    std::vector<int> nearest_;  // the deciding source of each cell of a grid; -1 before it is known
+    std::vector<int> nearest_;  // per grid cell: source of the smallest edge length; -1: not known yet
 };
 
 }  // namespace selvage

@@ -15,7 +15,7 @@ namespace {
 
 using Quad = std::array<int, 4>;
 
-constexpr int block_size = 8;
+constexpr int block_size = 8;  // samples of a block along an axis; far blocks are skipped; chosen by hand, not measured
 
 /// Field samples on a regular grid; x runs fastest.
 struct Grid {
@@ -96,7 +96,8 @@ void for_each_cell(const Grid& grid, Visit visit)
             for (int i = 0; i + 1 < grid.count[0]; ++i) visit(i, j, k);
 }
 
-/// Moves outside samples in until no cell is ambiguous. Only grows the shape, hence ends.
+/// Makes outside samples of ambiguous cells inside ones until no cell is ambiguous. The loop ends, since the
+/// shape only grows.
 void make_well_composed(Grid& grid, const std::array<int, 8>& offset)
 {
     const auto value_just_inside = float(-1e-6);
@@ -133,7 +134,7 @@ Vec3 cell_vertex(const Grid& grid, int i, int j, int k, int mask, const std::arr
     return grid.point(i, j, k) + grid.spacing * sum / crossings;
 }
 
-/// One quad per crossed grid edge, turned so that it is counter-clockwise seen from outside.
+/// Returns one quad per crossed grid edge, counter-clockwise as seen from outside.
 std::vector<Quad> net_quads(const Grid& grid, const std::vector<int>& vertex_of_cell)
 {
     std::vector<Quad> quads;
@@ -160,7 +161,7 @@ std::vector<Quad> net_quads(const Grid& grid, const std::vector<int>& vertex_of_
     return quads;
 }
 
-/// Neighbours along quad edges in compressed rows. Each edge is seen once from either end: the net is closed.
+/// Neighbours along quad edges in compressed rows. The net is closed, so each edge is listed once at either end.
 struct Neighbours {
     std::vector<int> offset, vertex;
 };
@@ -179,7 +180,8 @@ Neighbours find_neighbours(const std::vector<Quad>& quads, int vertex_count)
     return rows;
 }
 
-/// One Newton step along the gradient, at most half a cell long; value and gradient from four samples.
+/// Moves a point towards the surface by one Newton step along the gradient, at most half a cell long. Four samples give
+/// the value and the gradient.
 Vec3 project(const ScalarField& field, const Vec3& point, double spacing)
 {
     static const std::array<Vec3, 4> taps{Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3(-1, 1, -1), Vec3(1, 1, 1)};
@@ -217,21 +219,23 @@ void relax(std::vector<Vec3>& vertices, const Neighbours& rows, const ScalarFiel
     }
 }
 
-/// Largest cosine over the corners of a triangle: the smaller, the better its smallest angle.
-double sharpest_cosine(const Vec3& a, const Vec3& b, const Vec3& c)
+/// Returns the cosine of a triangle's smallest angle.
+double smallest_angle_cosine(const Vec3& a, const Vec3& b, const Vec3& c)
 {
     const Vec3 ab = (b - a).normalized(), bc = (c - b).normalized(), ca = (a - c).normalized();
     return std::max({-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)});
 }
 
-/// Cuts every quad along the diagonal that gives the larger smallest angle.
+/// Divides every quad along the diagonal that makes the smallest angle of its two triangles larger.
 std::vector<Face> split_quads(const std::vector<Quad>& quads, const std::vector<Vec3>& x)
 {
     std::vector<Face> faces;
     faces.reserve(2 * quads.size());
     for (const auto& [a, b, c, d] : quads) {
-        const double along_ac = std::max(sharpest_cosine(x[a], x[b], x[c]), sharpest_cosine(x[a], x[c], x[d]));
-        const double along_bd = std::max(sharpest_cosine(x[a], x[b], x[d]), sharpest_cosine(x[b], x[c], x[d]));
+        const double along_ac =
+            std::max(smallest_angle_cosine(x[a], x[b], x[c]), smallest_angle_cosine(x[a], x[c], x[d]));
+        const double along_bd =
+            std::max(smallest_angle_cosine(x[a], x[b], x[d]), smallest_angle_cosine(x[b], x[c], x[d]));
         if (along_ac <= along_bd) {
             faces.push_back({a, b, c});
             faces.push_back({a, c, d});

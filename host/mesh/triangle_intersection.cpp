@@ -7,8 +7,9 @@
 namespace selvage {
 namespace {
 
-// A point off the plane of a triangle: seen from it, points of the plane turn as the determinant with it says. One of
-// three points that are not on a line with each other and the origin is off any plane but those through all of them.
+// Returns a point that is not in the plane of a triangle. The orientation of three points of the plane is then the sign
+// of their determinant with this point, which needs no projection. The three candidates and the origin are not
+// coplanar, so one of the four is off the plane.
 Vec3 point_off_plane(const Triangle& t)
 {
     for (const Vec3& candidate : {Vec3(1e3, 0, 0), Vec3(0, 1e3, 0), Vec3(0, 0, 1e3)})
@@ -16,12 +17,12 @@ Vec3 point_off_plane(const Triangle& t)
     return Vec3::Zero();
 }
 
-// All in one plane, as seen from `eye`.
+// Tests two segments in one plane; `eye` is a point off that plane.
 bool segments_meet(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& eye)
 {
     const int pa = exact_orientation(p, q, a, eye), pb = exact_orientation(p, q, b, eye);
     const int ap = exact_orientation(a, b, p, eye), aq = exact_orientation(a, b, q, eye);
-    if (pa == 0 && pb == 0 && ap == 0 && aq == 0) {  // on one line: their extents decide
+    if (pa == 0 && pb == 0 && ap == 0 && aq == 0) {  // collinear: they meet if their extents overlap
         for (int c = 0; c < 3; ++c)
             if (std::max(p[c], q[c]) < std::min(a[c], b[c]) || std::max(a[c], b[c]) < std::min(p[c], q[c]))
                 return false;
@@ -53,7 +54,7 @@ bool edge_meets(const Triangle& edges, const Triangle& t)
 
 bool is_degenerate(const Triangle& t)
 {
-    // On one line if no point lies off the plane "through" them.
+    // Only collinear corners are coplanar with each of four points that are not coplanar themselves.
     const auto flat = [&](const Vec3& x) { return exact_orientation(t[0], t[1], t[2], x) == 0; };
     return flat({1e3, 0, 0}) && flat({0, 1e3, 0}) && flat({0, 0, 1e3}) && flat({0, 0, 0});
 }

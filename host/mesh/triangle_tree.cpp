@@ -12,9 +12,12 @@
 namespace selvage {
 namespace {
 
-constexpr int leaf_size = 4;
-constexpr int serial_leaves = 512;     // subtrees up to this are built by one thread
-constexpr std::size_t frontier = 256;  // pieces that a search is divided into
+// These affect speed only. Chosen by hand; not measured.
+struct TriangleTreeTuning {
+    static constexpr int leaf_size = 4;                // triangles per leaf
+    static constexpr int serial_leaves = 512;          // one thread builds subtrees of up to this many leaves
+    static constexpr std::size_t search_pieces = 256;  // node pairs from which on a search runs in parallel
+};
 
 }  // namespace
 
@@ -32,7 +35,7 @@ bool TriangleTree::Box::overlaps(const Box& other) const
            low[2] <= other.high[2] && other.low[2] <= high[2];
 }
 
-// Single precision, rounded outwards.
+// Returns the box of a triangle in single precision, rounded outwards.
 TriangleTree::Box TriangleTree::box_of(int face) const
 {
     constexpr float far = std::numeric_limits<float>::infinity();
@@ -51,17 +54,17 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& vertices, const std::vector<
 {
     if (faces.empty()) return;
     std::iota(order_.begin(), order_.end(), 0);
-    const int leaves = (int(faces.size()) + leaf_size - 1) / leaf_size;
+    const int leaves = (int(faces.size()) + TriangleTreeTuning::leaf_size - 1) / TriangleTreeTuning::leaf_size;
     nodes_.resize(2 * std::size_t(leaves) - 1);
     build(0, 0, leaves);
 }
 
-// Of the triangles from `first` on, as many as fill the leaves.
+// Builds a subtree of `leaves` full leaves from the triangles at `first` and after in tree order.
 void TriangleTree::build(int node, int first, int leaves)
 {
     Node& n = nodes_[node];
     n.first = first;
-    n.count = std::min(leaves * leaf_size, int(order_.size()) - first);
+    n.count = std::min(leaves * TriangleTreeTuning::leaf_size, int(order_.size()) - first);
     if (leaves == 1) {
         for (int k = first; k < first + n.count; ++k) boxes_[k] = box_of(order_[k]);
         n.box = boxes_[first];
@@ -75,7 +78,7 @@ void TriangleTree::build(int node, int first, int leaves)
     for (int k = first; k < first + n.count; ++k) span.extend(middle(order_[k]));
     int axis = 0;
     span.sizes().maxCoeff(&axis);
-    const int left = leaves / 2, split = first + left * leaf_size;
+    const int left = leaves / 2, split = first + left * TriangleTreeTuning::leaf_size;
     std::nth_element(order_.begin() + first, order_.begin() + split, order_.begin() + first + n.count,
                      [&](int f, int g) {
                          const double a = middle(f)[axis], b = middle(g)[axis];
@@ -84,7 +87,7 @@ void TriangleTree::build(int node, int first, int leaves)
     n.right = node + 2 * left;
     const auto build_left = [&] { build(node + 1, first, left); };
     const auto build_right = [&] { build(n.right, split, leaves - left); };
-    if (leaves > serial_leaves) {
+    if (leaves > TriangleTreeTuning::serial_leaves) {
         tbb::parallel_invoke(build_left, build_right);
     } else {
         build_left();
@@ -94,7 +97,7 @@ void TriangleTree::build(int node, int first, int leaves)
     n.box.add(nodes_[n.right].box);
 }
 
-// Two trees, or one and itself, met from the top down.
+// Simultaneous traversal from the roots of two trees, or of one tree with itself.
 struct TriangleTree::Search {
     const TriangleTree &a, &b;
     const Meet& meet;
@@ -131,7 +134,7 @@ struct TriangleTree::Search {
         if (a.nodes_.empty() || b.nodes_.empty()) return pairs;
         std::vector<NodePair> pieces{{0, 0}};
         std::size_t next = 0;
-        while (next < pieces.size() && pieces.size() - next < frontier) {
+        while (next < pieces.size() && pieces.size() - next < TriangleTreeTuning::search_pieces) {
             const NodePair piece = pieces[next++];
             visit(piece, pieces, pairs);
         }

@@ -8,11 +8,11 @@
 
 namespace selvage {
 
-/// Two triangles, by their indices.
+/// The indices of two triangles.
 using TrianglePair = std::array<int, 2>;
 
-/// The triangles of a mesh in a hierarchy of boxes, halved along the longest side of what their middles span: for one
-/// look at a shape, without a ray tracing library.
+/// A bounding volume hierarchy over the triangles of a mesh, split at the median along the longest side of their
+/// centroids' box. It serves single queries of a shape without a ray tracing library.
 class TriangleTree {
 public:
     /// @param vertices  finite positions [m]; like the faces they must outlive this object
@@ -25,7 +25,7 @@ public:
         return {vertices_[faces_[f][0]], vertices_[faces_[f][1]], vertices_[faces_[f][2]]};
     }
 
-    using Meet = std::function<bool(int, int)>;  ///< Called by several threads at once.
+    using Meet = std::function<bool(int, int)>;  ///< Exact test; called by several threads at once.
 
     /// Returns the pairs of different triangles whose boxes overlap and which meet, the smaller index first, sorted.
     std::vector<TrianglePair> own_pairs(const Meet& meet) const;

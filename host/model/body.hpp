@@ -9,7 +9,7 @@
 
 namespace selvage {
 
-/// An obstacle for the cloth as it starts, in the scene's frame.
+/// An obstacle for the cloth, in the scene's frame and as it is at time 0.
 struct Body {
     enum class Kind { mesh, sphere, plane, capsule };
 
@@ -24,17 +24,17 @@ struct Body {
     std::shared_ptr<const BodyMotion> motion;                    ///< Null: it stands still.
 };
 
-/// The surface of a body at a time [s].
+/// Returns the surface of a body at a time [s].
 TriangleMesh body_mesh_at(const Body& body, double time);
 
 /// True if any of the bodies moves.
 bool any_moves(const std::vector<Body>& bodies);
 
-/// A pose that a body passes through: vertices as loaded, [m], z up.
+/// A pose that a body passes through.
 struct LoadedPose {
-    double time = 0;  ///< [s], > 0
-    std::vector<Vec3> vertices;
-    bool smooth = false;
+    double time = 0;             ///< [s], > 0
+    std::vector<Vec3> vertices;  ///< As loaded, z up [m].
+    bool smooth = false;         ///< See MeshPose.
 };
 
 }  // namespace selvage

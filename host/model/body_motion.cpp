@@ -8,7 +8,7 @@ namespace {
 
 double eased(double s, bool smooth) { return smooth ? s * s * (3 - 2 * s) : s; }
 
-// The later of the two entries between which a time lies, and how far it is on the way to it.
+// The two entries around a time, given by the later one, and the weight of the later one in between.
 struct Between {
     std::size_t later = 0;
     double part = 0;  // 0 at the earlier, 1 at the later entry
@@ -37,7 +37,8 @@ void BodyMotion::add_pose(double time, std::vector<Vec3> vertices, bool smooth)
     for (const Vec3& x : pose.vertices) reach_.extend(x);
     if (!poses_.empty())
         for (std::size_t v = 0; v < pose.vertices.size(); ++v)
-            pose.way = std::max(pose.way, (pose.vertices[v] - poses_.back().vertices[v]).norm());
+            pose.max_displacement =
+                std::max(pose.max_displacement, (pose.vertices[v] - poses_.back().vertices[v]).norm());
     poses_.push_back(std::move(pose));
 }
 
@@ -77,16 +78,16 @@ void BodyMotion::vertices_at(double time, std::vector<Vec3>& vertices) const
 
 double BodyMotion::distance(double from, double to, const Box& box) const
 {
-    double way = 0;
+    double deformation = 0;
     for (std::size_t k = 1; k < poses_.size(); ++k) {
         const double start = poses_[k - 1].time, length = poses_[k].time - start;
         const auto part = [&](double time) {
             return eased(std::clamp((time - start) / length, 0.0, 1.0), poses_[k].smooth);
         };
-        way += poses_[k].way * std::abs(part(to) - part(from));
+        deformation += poses_[k].max_displacement * std::abs(part(to) - part(from));
     }
-    if (keys_.empty()) return way;
-    // What a rigid motion moves a point by is convex in the point: the corners of a box bound it.
+    if (keys_.empty()) return deformation;
+    // The length of a rigid displacement is a convex function of the point, so over a box it is largest at a corner.
     const Placement before = placement(from), after = placement(to);
     const Box around = box.merged(reach_);
     double rigid = 0;
@@ -94,15 +95,15 @@ double BodyMotion::distance(double from, double to, const Box& box) const
         const Vec3 x = around.corner(Box::CornerType(corner));
         rigid = std::max(rigid, (after * x - before * x).norm());
     }
-    return way + rigid;
+    return deformation + rigid;
 }
 
 double BodyMotion::highest_speed(const Box& box) const
 {
-    constexpr int looks = 200;
-    const double dt = end() / looks;
+    constexpr int samples = 200;  // over the whole motion; chosen by hand, not measured
+    const double dt = end() / samples;
     double highest = 0;
-    for (int k = 0; k < looks && dt > 0; ++k) highest = std::max(highest, distance(k * dt, (k + 1) * dt, box) / dt);
+    for (int k = 0; k < samples && dt > 0; ++k) highest = std::max(highest, distance(k * dt, (k + 1) * dt, box) / dt);
     return highest;
 }
 

@@ -13,8 +13,8 @@ struct ClothPanel {
     std::string fabric;  ///< Key into Scene::fabrics.
     int first_vertex = 0, vertex_count = 0;
     int first_face = 0, face_count = 0;
-    double rest_area = 0;      ///< Of the exact outline's triangulation [m^2].
-    double rest_boundary = 0;  ///< Length of its boundary polygon [m].
+    double rest_area = 0;      ///< Area of the triangulated outline [m^2].
+    double rest_boundary = 0;  ///< Length of the boundary polygon [m].
     bool reversed = false;     ///< Its outside is the side from which the faces look clockwise.
 };
 
@@ -33,17 +33,19 @@ struct Seam {
     double length_a = 0, length_b = 0;  ///< [m]; unequal for a gathered seam.
 };
 
-/// Held vertices that move: turned about an axis and shifted at a steady rate from `start` to `end` [s].
+/// A prescribed motion of pinned vertices: a rotation about an axis and a translation, both at constant speed from
+/// `start` to `end` [s].
 struct PinMotion {
     std::vector<int> vertices;
     double start = 0, end = 1;
     Vec3 velocity = Vec3::Zero();  ///< [m/s]
     Vec3 axis = Vec3::UnitZ();     ///< Unit.
-    Vec3 point = Vec3::Zero();     ///< Of the axis [m].
+    Vec3 point = Vec3::Zero();     ///< A point on the axis [m].
     double turns = 0;              ///< From start to end, counter-clockwise.
 };
 
-/// The flat, unsewn cloth and where it starts. Faces never share vertices across panels: seams join pairs later.
+/// The flat, unsewn cloth and its start positions. Faces of different panels share no vertices; seams join pairs
+/// of vertices later.
 struct Cloth {
     std::vector<Vec2> panel_coordinates;  ///< Rest position in the panel's plane: (weft, warp) [m].
     std::vector<Vec3> positions;          ///< Start position in the scene [m].
@@ -52,21 +54,21 @@ struct Cloth {
     std::vector<OutlineSamples> outline;  ///< Every outline edge of every panel (garments).
     std::vector<Seam> seams;
     std::vector<std::array<int, 2>> seam_pairs;  ///< Vertices that are sewn to each other.
-    std::vector<int> pinned;                     ///< Held vertices, sorted.
-    std::vector<PinMotion> pin_motions;          ///< Of held vertices; in the order in which they act.
-    std::vector<std::string> warnings;           ///< What was odd but could be used.
+    std::vector<int> pinned;                     ///< Vertices with prescribed positions, sorted.
+    std::vector<PinMotion> pin_motions;          ///< In the order in which they are applied.
+    std::vector<std::string> warnings;           ///< Unusual input that could be used.
 };
 
-/// The faces of a cloth wound counter-clockwise as seen from its outside, in the order of Cloth::faces.
+/// Returns the faces of a cloth, counter-clockwise as seen from its outside, in the order of Cloth::faces.
 std::vector<Face> outward_faces(const Cloth& cloth);
 
-/// Adds the panels, seams and pins of another cloth, its indices shifted.
+/// Appends the panels, seams and pins of another cloth, with its indices shifted.
 void append_cloth(Cloth& to, const Cloth& other);
 
-/// Mean length of the edges of all faces at rest [m]; 0.01 without faces.
+/// Returns the mean length of the edges of all faces at rest [m]; 0.01 without faces.
 double typical_edge(const Cloth& cloth);
 
-/// Linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.
+/// A prolongation: linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.
 struct Transfer {
     std::vector<int> offset;     ///< Fine vertex count + 1.
     std::vector<int> column;     ///< Coarse vertex.

@@ -12,10 +12,11 @@ namespace selvage {
 /// Fabrics in the order of the state's material table.
 using FabricTable = std::map<std::string, Fabric>;
 
-/// What all phases of a run share. The coarser cloths are the same panels at twice the edge length, and so on.
+/// The data that all phases of a run share. The coarser cloths have the same panels, each at twice the edge length of
+/// the next finer one.
 struct ClothModel {
     Cloth cloth;
-    std::vector<Cloth> coarser;       ///< Finest of them first; may be empty.
+    std::vector<Cloth> coarser;       ///< From fine to coarse; may be empty.
     std::vector<Transfer> transfers;  ///< From coarser[k] to the next finer cloth.
     FabricTable fabrics;
     std::vector<Body> bodies;

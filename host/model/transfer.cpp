@@ -10,8 +10,9 @@
 namespace selvage {
 namespace {
 
-// Rounding leaves weights of 1e-17 where a vertex lies on an edge. Products of such weights widen coarse matrices, and
-// in single precision they are subnormal numbers, with which processors are slow.
+// Weights below this are dropped [1]. Rounding leaves weights of 1e-17 where a vertex lies on an edge. Products of such
+// weights add entries to the coarse matrices, and in single precision these are subnormal numbers, with which
+// processors are slow. Any value between the rounding and a real weight serves.
 constexpr double least_weight = 1e-7;
 
 struct Row {
@@ -67,7 +68,8 @@ public:
             high = high.cwiseMax(cloth.panel_coordinates[vertex]);
         }
         const Vec2 extent = high - low_;
-        // About two triangles to a cell of the bounding box, whatever its proportions.
+        // About two triangles per cell. The second bound limits the number of cells where the bounding box
+        // is very narrow.
         cell_ = std::max(std::sqrt(2 * extent.x() * extent.y() / panel.face_count),
                          1e-3 * extent.maxCoeff() / std::sqrt(panel.face_count));
         columns_ = int(extent.x() / cell_) + 1;
@@ -80,7 +82,7 @@ public:
         for_each_cell([&](std::size_t cell, int face) { faces_[fill[cell]++] = face; });
     }
 
-    // Searches ring after ring of cells around the point until no farther ring can hold anything nearer.
+    // Searches rings of cells around the point, from the inside out, until no further ring can hold a nearer triangle.
     Row find(const Vec2& point) const
     {
         const int column = column_of(point.x()), row = row_of(point.y());
@@ -144,11 +146,11 @@ private:
     Vec2 low_;
     double cell_ = 1;
     int columns_ = 1, rows_ = 1;
-    std::vector<int> first_;  // of each cell, into faces_
+    std::vector<int> first_;  // start of each cell's faces in faces_
     std::vector<int> faces_;
 };
 
-// The row of a vertex at an arc-length fraction of an edge that the coarse cloth samples.
+// Returns the row of a vertex at an arc-length fraction of an outline edge of the coarse cloth.
 Row row_on_edge(const OutlineSamples& coarse, double parameter)
 {
     const auto above = std::upper_bound(coarse.parameters.begin() + 1, coarse.parameters.end() - 1, parameter);

@@ -24,8 +24,8 @@ std::size_t last_level_cache_bytes()
     return std::size_t(bytes);
 }
 
-// One slice per thread: blocks this large are copied with stores that bypass the caches, so that the figure is not
-// lowered by reading lines that are about to be overwritten.
+// Gives every thread one contiguous slice. Blocks this large are copied with non-temporal stores, so that the figure is
+// not lowered by reading cache lines that are about to be overwritten.
 template <class Body>
 void for_each_slice(std::size_t bytes, int slices, const Body& body)
 {
@@ -47,7 +47,7 @@ double measure_copy_bandwidth(std::size_t most_bytes, int passes)
     const std::size_t bytes = std::min(std::max(4 * last_level_cache_bytes(), 128 * megabyte), most_bytes);
     const int threads = tbb::this_task_arena::max_concurrency();
     const std::unique_ptr<std::byte[]> from(new std::byte[bytes]), to(new std::byte[bytes]);
-    // Every page is touched first by the thread that will copy it.
+    // First touch: every thread writes the pages that it will copy, so that they lie in the memory nearest to it.
     for_each_slice(bytes, threads, [&](std::size_t begin, std::size_t length) {
         std::memset(from.get() + begin, 1, length);
         std::memset(to.get() + begin, 0, length);
@@ -58,7 +58,7 @@ double measure_copy_bandwidth(std::size_t most_bytes, int passes)
         for_each_slice(bytes, threads, [&](std::size_t begin, std::size_t length) {
             std::memcpy(to.get() + begin, from.get() + begin, length);
         });
-        asm volatile("" : : "r"(to.get()) : "memory");  // the copy may not be left out
+        asm volatile("" : : "r"(to.get()) : "memory");  // keeps the compiler from removing the copy
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         fastest = std::max(fastest, 2.0 * double(bytes) / seconds);
     }

@@ -2,10 +2,10 @@
 
 namespace selvage {
 
-/// Items that take part: all of [0, count), or `count` of them that a list names in ascending order.
+/// The items that a launch works on: all of [0, count), or those of a list of `count` indices.
 struct Items {
     int count = 0;
-    const int* list = nullptr;  ///< Null: all.
+    const int* list = nullptr;  ///< Ascending indices; null: all of [0, count).
 };
 
 }  // namespace selvage

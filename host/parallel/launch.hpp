@@ -8,7 +8,8 @@
 #include "host/parallel/items.hpp"
 #include "host/parallel/trace.hpp"
 
-// Promises the compiler what every kernel guarantees: no item reads what another item writes.
+// Tells the compiler that no item reads what another item writes, so that it may vectorise the loop. Every
+// kernel guarantees this.
 #ifdef __clang__
     #define INDEPENDENT_ITEMS _Pragma("clang loop vectorize(assume_safety)")
 #else
@@ -17,10 +18,12 @@
 
 namespace selvage {
 
-/// Items of one task: small enough to balance, large enough to hide the task's cost.
+/// Items of one task: few enough to balance the threads, enough to hide the cost of starting the task. Chosen by
+/// hand; not measured.
 constexpr int items_per_task = 1024;
 
-/// Runs `body(item)` for every item in [0, count) on the TBB threads. Like all launches it shows in the trace in use.
+/// Runs `body(item)` for every item in [0, count) on the TBB threads. Every task is recorded in the calling thread's
+/// trace, if it has one.
 template <class Body>
 void for_each_item(int count, const Body& body)
 {
@@ -33,7 +36,7 @@ void for_each_item(int count, const Body& body)
                       });
 }
 
-/// Runs `body(item)` for the items that take part.
+/// Runs `body(item)` for the given items only.
 template <class Body>
 void for_each_item(const Items& items, const Body& body)
 {
@@ -43,9 +46,9 @@ void for_each_item(const Items& items, const Body& body)
         for_each_item(items.count, body);
 }
 
-/// Runs `Kernel(item, &args)` for every item that takes part on the TBB threads; `items` may be a count.
-/// A kernel writes only to its own item, so items run in any order, in parallel and in SIMD lanes.
-/// `args` is copied into each task, where the compiler can keep it in registers.
+/// Runs `Kernel(item, &args)` for the given items, or for [0, count), on the TBB threads. A kernel writes only to its
+/// own item, so items run in any order, in parallel and in SIMD lanes. `args` is copied into each task, where the
+/// compiler can keep it in registers.
 template <auto Kernel, class Args>
 void launch(const Items& items, const Args& args)
 {
@@ -72,7 +75,7 @@ double sum_items(int count, const Body& body)
         std::plus<>{});
 }
 
-/// The same over the items that take part.
+/// Returns the sum over the given items only.
 template <class Body>
 double sum_items(const Items& items, const Body& body)
 {
@@ -80,7 +83,7 @@ double sum_items(const Items& items, const Body& body)
     return sum_items(items.count, [body, list = items.list](int i) { return body(list[i]); });
 }
 
-/// Returns the sum of `Kernel(item, &args)` over the items that take part; see sum_items.
+/// Returns the sum of `Kernel(item, &args)` over the given items; see sum_items.
 template <auto Kernel, class Args>
 double launch_sum(const Items& items, const Args& args)
 {

@@ -15,11 +15,11 @@ struct KernelRecord {
     std::int64_t calls = 0;
     double seconds = 0;
     std::int64_t items = 0;  ///< Over all calls.
-    std::int64_t bytes = 0;  ///< That it must move, over all calls; 0: not known.
+    std::int64_t bytes = 0;  ///< Least memory traffic, over all calls; 0: not known.
 };
 
-/// Collects what the stages of a run cost. A handful of clock reads per launch: always on. What is timed is also a
-/// scope of the trace in use.
+/// Collects the time and memory traffic of the stages of a run. A timed stage costs a few clock reads, so the profile
+/// is always on. Each timed stage is also a scope of the calling thread's trace, if it has one.
 class Profile {
 public:
     /// Adds one call.

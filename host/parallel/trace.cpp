@@ -7,18 +7,22 @@
 namespace selvage {
 namespace {
 
-constexpr std::size_t most_events = 200000;     // of one track: a trace stays small enough for a browser
-constexpr std::int64_t least_gap = 20000;       // tasks of one call nearer than this are drawn as one [ns]
-constexpr std::int64_t first_threshold = 1000;  // [ns]
+// Limits of a trace's size. Chosen by hand; not measured.
+struct TraceTuning {
+    static constexpr std::size_t max_events = 200000;     // per track, so that a browser can still open the trace
+    static constexpr std::int64_t merge_gap = 20000;      // shorter gaps between tasks of one call are closed [ns]
+    static constexpr std::int64_t first_shortest = 1000;  // first threshold below which events are dropped [ns]
+};
 
 }  // namespace
 
-// Leaving out events never breaks the nesting of the others.
+// Drops the shortest events until at most half of the limit is left. The other events stay properly nested, since any
+// subset of nested spans is nested.
 void TraceTrack::thin()
 {
     const std::size_t before = events.size();
-    while (events.size() > most_events / 2) {
-        shortest = std::max(first_threshold, 2 * shortest);
+    while (events.size() > TraceTuning::max_events / 2) {
+        shortest = std::max(TraceTuning::first_shortest, 2 * shortest);
         std::erase_if(events, [this](const TraceEvent& event) { return event.end - event.begin < shortest; });
     }
     left_out += std::int64_t(before - events.size());
@@ -32,8 +36,9 @@ void TraceTrack::add(const TraceEvent& event)
         if (!events.empty()) {
             TraceEvent& last = events.back();
             if (last.task && last.call == event.call && last.scope == event.scope &&
-                event.begin - last.end < least_gap) {
-                // A task that waited may have run others in its own time.
+                event.begin - last.end < TraceTuning::merge_gap) {
+                // A task that waits may run other tasks meanwhile. They were recorded first and lie within its span, so
+                // their time must not count twice.
                 if (event.begin < last.begin) busy[std::size_t(event.scope)] -= last.end - last.begin;
                 last.begin = std::min(last.begin, event.begin);
                 last.end = event.end;
@@ -46,7 +51,7 @@ void TraceTrack::add(const TraceEvent& event)
         return;
     }
     events.push_back(event);
-    if (events.size() >= most_events) thin();
+    if (events.size() >= TraceTuning::max_events) thin();
 }
 
 struct Trace::ThreadTracks {

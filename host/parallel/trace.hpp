@@ -12,26 +12,26 @@ namespace selvage {
 struct TraceEvent {
     std::int64_t begin = 0, end = 0;
     int scope = 0;           ///< Index into Trace::scopes().
-    std::uint32_t call = 0;  ///< Tells the calls of scopes apart.
-    bool task = false;       ///< Work on items of a launch; false: the scope itself.
+    std::uint32_t call = 0;  ///< Number of the scope's call; a task has that of its launch's scope.
+    bool task = false;       ///< True: one task of a launch; false: a scope.
 };
 
-/// A named place in the tree of calls, and what was spent there.
+/// A node of the tree of scopes, with its cost over all calls.
 struct TraceNode {
     std::string name;
     int parent = -1, depth = 0;
-    std::int64_t calls = 0, nanoseconds = 0, inner_nanoseconds = 0;  ///< Inner: in the scopes below.
+    std::int64_t calls = 0, nanoseconds = 0, inner_nanoseconds = 0;  ///< Inner: within child scopes.
     std::int64_t bytes = 0, flops = 0;                               ///< Over all calls; 0: not known.
-    std::int64_t launches = 0;                                       ///< By itself, over all calls.
-    std::vector<float> durations = {};                               ///< Of every call [s].
+    std::int64_t launches = 0;                                       ///< Made directly in this scope.
+    std::vector<float> durations = {};                               ///< Duration of every call [s].
 };
 
-/// What one thread did. A thread writes to its own track only.
+/// The events of one thread. A thread writes to its own track only.
 struct TraceTrack {
     std::vector<TraceEvent> events;
     std::vector<std::int64_t> busy;  ///< Per scope: time in tasks [ns].
-    std::int64_t shortest = 0;       ///< Events below it were left out [ns].
-    std::int64_t left_out = 0;
+    std::int64_t shortest = 0;       ///< Shorter events were dropped [ns].
+    std::int64_t left_out = 0;       ///< Number of dropped events.
 
     void add(const TraceEvent& event);
 
@@ -39,12 +39,13 @@ private:
     void thin();
 };
 
-/// Records a tree of scopes, entered by one thread, and the tasks that all threads run for them.
-/// Nobody has to pass it on: while a TraceUse lives, scopes and launches of its thread find it there. Without one
-/// they test one pointer and go on. There are no locks: every thread has a track of its own.
+/// Records a tree of scopes, entered by one thread, and the tasks that all threads run for them. Scopes and launches
+/// find the trace through a thread-local pointer, which a TraceUse sets for its lifetime, so that no function has to
+/// pass the trace on. Without a TraceUse they cost one test of that pointer. There are no locks, since every thread
+/// writes to its own track.
 class Trace {
 public:
-    /// How a launch tells its tasks where they belong.
+    /// The scope and call that the tasks of a launch belong to.
     struct Mark {
         Trace* trace = nullptr;
         int scope = 0;
@@ -57,17 +58,17 @@ public:
     Trace& operator=(const Trace&) = delete;
 
     static Trace* here() { return used_; }  ///< The trace in use by the calling thread, or null.
-    static Mark mark() { return used_ ? used_->next_mark() : Mark{}; }  ///< Of a launch that begins now.
+    static Mark mark() { return used_ ? used_->next_mark() : Mark{}; }  ///< For a launch that begins now.
 
     void open(std::string_view name);
-    void close(std::int64_t bytes, std::int64_t flops);  ///< The scope opened last.
+    void close(std::int64_t bytes, std::int64_t flops);  ///< Closes the scope opened last.
     void add_task(const Mark& mark, std::int64_t begin);
     std::int64_t now() const
     {
         return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start_).count();
     }
 
-    /// All scopes, each after its parent; [0] is the whole. Call it and the next when no launch is running.
+    /// All scopes, each after its parent; [0] is the whole run. Call this and tracks() only while no launch is running.
     const std::vector<TraceNode>& scopes() const { return nodes_; }
     /// The tracks, the one of the thread that made the trace first; each sorted so that outer spans precede inner ones.
     std::vector<TraceTrack> tracks() const;
@@ -96,10 +97,10 @@ private:
     std::uint32_t call_ = 0, calls_ = 0;
     struct ThreadTracks;
     std::unique_ptr<ThreadTracks> tracks_;
-    TraceTrack* own_;  ///< Of the thread that opens scopes.
+    TraceTrack* own_;  ///< Track of the thread that opens scopes.
 };
 
-/// Lets the calling thread record into a trace for as long as this lives.
+/// Makes the calling thread record into a trace for the lifetime of this object, and into the previous one afterwards.
 class TraceUse {
 public:
     explicit TraceUse(Trace* trace) : before_(Trace::used_) { Trace::used_ = trace; }
@@ -111,10 +112,10 @@ private:
     Trace* before_;
 };
 
-/// Records its own life as a scope of the trace in use, if any.
+/// Records its own lifetime as a scope of the calling thread's trace, if it has one.
 class TraceScope {
 public:
-    /// @param bytes, flops  that the scope moves and computes; 0: not known
+    /// @param bytes, flops  memory traffic and floating-point operations of the scope; 0: not known
     explicit TraceScope(std::string_view name, std::int64_t bytes = 0, std::int64_t flops = 0)
         : trace_(Trace::here()), bytes_(bytes), flops_(flops)
     {
@@ -132,7 +133,7 @@ private:
     std::int64_t bytes_, flops_;
 };
 
-/// Records its own life as a task of a launch.
+/// Records its own lifetime as a task of a launch.
 class TaskSpan {
 public:
     explicit TaskSpan(const Trace::Mark& mark) : mark_(mark), begin_(mark.trace ? mark.trace->now() : 0) {}

@@ -9,8 +9,8 @@
 namespace selvage {
 namespace {
 
-constexpr float long_lens = 0.15f;         // tangent of half the larger field of view: about 17 degrees in all
-constexpr float smallest_subject = 1e-3f;  // [m]
+constexpr float long_lens = 0.15f;  // tangent of half the larger field of view: about 17 degrees in all; chosen by eye
+constexpr float smallest_subject = 1e-3f;  // least extent of a subject [m], so that a point has a view too
 
 Camera oriented(ViewDirection direction)
 {

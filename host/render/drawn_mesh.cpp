@@ -11,8 +11,8 @@
 namespace selvage {
 namespace {
 
-constexpr float crease_cosine = 0.5f;
-constexpr double farthest_drawn = 1e6;  // [m]; what lies beyond comes from a run that diverged
+constexpr float crease_cosine = 0.5f;   // of 60 degrees; chosen by eye
+constexpr double farthest_drawn = 1e6;  // [m]; positions beyond come from a run that diverged
 
 bool can_be_drawn(const Vec3& position)
 {

@@ -34,9 +34,9 @@ struct DrawnMesh {
     Vec3f point(int face, float u, float v) const;
 };
 
-/// Prepares a mesh for drawing. Faces without area or with a corner that is not finite are left out.
-/// A corner's normal is the area-weighted mean over the faces round its vertex that turn from its own face by less
-/// than the crease angle (60 degrees): smooth cloth shades smoothly and sharp folds stay sharp.
+/// Prepares a mesh for drawing. Faces without area or with a corner that is not finite are left out. The normal of a
+/// corner is the area-weighted mean over those faces around its vertex whose normals differ from that of its own face
+/// by less than the crease angle (60 degrees), so that smooth cloth shades smoothly and sharp folds stay sharp.
 /// @throws std::invalid_argument if a face names a vertex that does not exist.
 DrawnMesh make_drawn_mesh(std::span<const Vec3> positions, std::span<const Face> faces, const Vec3& origin);
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-// How much of a body is shown beyond the cloth, in heights of the cloth: a shirt shows the head and the arms.
+// How much of a body is shown beyond the cloth, over the height of the cloth [1]. Chosen by eye so that the picture of
+// a shirt includes the head and the arms.
 constexpr float body_above = 0.65f, body_below = 0.30f, body_beside = 0.65f;
 
 void add_drawn_vertices(const DrawnMesh& mesh, std::vector<Vec3f>& points)
@@ -50,7 +51,7 @@ std::array<ViewDirection, 2> view_directions(PictureViews views, bool has_seams,
     if (views == PictureViews::front_and_back || (views == PictureViews::automatic && has_seams))
         return {ViewDirection{0, 5 * degree}, ViewDirection{180 * degree, 5 * degree}};
 
-    // The flatter the subject lies, the more it is looked at from above.
+    // The flatter the subject is, the higher the camera stands. Angles chosen by eye.
     const Vec3f size = box_of(points).sizes();
     const float flatness = 1 - std::clamp(size.z() / std::max(size.head<2>().maxCoeff(), 1e-6f), 0.f, 1.f);
     const float elevation = (14 + 20 * flatness) * degree;

@@ -7,8 +7,8 @@
 
 namespace selvage {
 
-/// Returns the vertices that must be in the picture: the cloth's, and those of the bodies close to it; the bodies'
-/// alone when there is no cloth, and one point when there is nothing.
+/// Returns the points that must be in the picture: the vertices of the cloth and those of the bodies close to it.
+/// Without cloth these are the vertices of the bodies, and with neither the origin.
 /// @param meshes  mesh 0 is the cloth, the rest are bodies
 std::vector<Vec3f> framed_points(const std::vector<DrawnMesh>& meshes);
 

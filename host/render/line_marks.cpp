@@ -32,7 +32,8 @@ LineMarks::LineMarks(const DrawnMesh& mesh, std::span<const std::array<int, 2>> 
     for (const Near& near : found) near_line_[std::size_t(next[std::size_t(near.face)]++)] = near.line;
 }
 
-// Walks outwards from the line over faces that share vertices, so that a layer lying on top is not marked.
+// Walks outwards from the line over faces that share vertices, so that another layer of cloth lying on it
+// is not marked.
 void LineMarks::find_faces_near(int line, std::vector<int>& last_visit, std::vector<Near>& found) const
 {
     std::vector<int> front;

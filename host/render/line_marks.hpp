@@ -7,7 +7,7 @@
 
 namespace selvage {
 
-/// Lines drawn on a mesh along pairs of its vertices: which of them pass near each face.
+/// Lines drawn on a mesh between pairs of its vertices, with a list of the lines near each face.
 class LineMarks {
 public:
     LineMarks() = default;
@@ -18,7 +18,7 @@ public:
     /// @throws std::invalid_argument if a line names a vertex that does not exist.
     LineMarks(const DrawnMesh& mesh, std::span<const std::array<int, 2>> lines, float reach);
 
-    /// Returns the distance from a point on a face to the nearest line along the surface around it [m];
+    /// Returns the distance [m] from a point on a face to the nearest line to which the surface around it leads;
     /// infinity beyond the reach.
     float distance(int face, const Vec3f& point) const;
 
@@ -32,8 +32,8 @@ private:
     const DrawnMesh* mesh_ = nullptr;
     std::vector<std::array<int, 2>> lines_;
     float reach_ = 0;
-    std::vector<int> offset_;  ///< Face count + 1.
-    std::vector<int> near_line_;
+    std::vector<int> offset_;     ///< Face count + 1.
+    std::vector<int> near_line_;  ///< Lines near each face.
 };
 
 /// Returns the edges that belong to one drawn face only: the hems.

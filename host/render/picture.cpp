@@ -16,14 +16,18 @@
 namespace selvage {
 namespace {
 
-constexpr float margin = 0.05f;                    // kept free on each side of a view
-constexpr float flattest = 0.62f, tallest = 1.3f;  // height / width of one view
+constexpr float margin = 0.05f;                    // kept free on each side of a view, over its size [1]
+constexpr float flattest = 0.62f, tallest = 1.3f;  // limits of height / width of one view
 const Vec3f warning_colour(0.85f, 0.09f, 0.03f);
 
 void check(const PictureCloth& cloth, const PictureOptions& options)
 {
-    if (options.width < 16) throw std::invalid_argument("a picture of " + std::to_string(options.width) + " pixels");
-    if (options.samples_per_axis < 1) throw std::invalid_argument("a picture without samples");
+    if (options.width < 16)
+        throw std::invalid_argument("picture width is " + std::to_string(options.width) +
+                                    " pixels, expected at least 16");
+    if (options.samples_per_axis < 1)
+        throw std::invalid_argument("samples_per_axis is " + std::to_string(options.samples_per_axis) +
+                                    ", expected at least 1");
     if (!cloth.face_panel.empty() && cloth.face_panel.size() != cloth.faces.size())
         throw std::invalid_argument("face_panel must be empty or hold one panel for each face");
     for (const int face : cloth.highlighted_faces)
@@ -39,7 +43,7 @@ Vec3 middle(const std::vector<Vec3>& positions)
     return box.isEmpty() ? Vec3::Zero() : Vec3(box.center());
 }
 
-// Panels differ a little in hue, in an order that sets neighbouring numbers apart.
+// Returns colours of slightly different hue; multiples of the golden ratio give neighbouring panels distinct ones.
 Vec3f panel_colour(int panel)
 {
     static const Vec3f blue(0.070f, 0.190f, 0.305f), green(0.085f, 0.235f, 0.310f);

@@ -24,10 +24,10 @@ struct PictureOptions {
     PictureViews views = PictureViews::automatic;
 };
 
-/// Draws cloth and bodies with smooth shading and soft light, two views side by side.
-/// The cloth is framed with as much of the bodies as stands close to it. The picture depends on nothing but the
-/// arguments: two calls give the same pixels. Faces with corners that are not finite are left out.
-/// @throws std::invalid_argument if an index is out of range or the options are (width < 16, samples_per_axis < 1).
+/// Draws cloth and bodies with smooth shading and soft light, two views side by side. The views show the cloth and the
+/// parts of the bodies close to it. The picture depends on nothing but the arguments: two calls give the same pixels.
+/// Faces with corners that are not finite are left out.
+/// @throws std::invalid_argument if an index is out of range, width < 16 or samples_per_axis < 1.
 /// @throws std::runtime_error if Embree fails.
 Image render_picture(const PictureCloth& cloth, const std::vector<TriangleMesh>& bodies,
                      const PictureOptions& options = {});

@@ -8,8 +8,9 @@
 namespace selvage {
 namespace {
 
-constexpr float same_piece_cosine = 0.93f;
-constexpr float same_piece_offset = 3;  // out of the tangent plane, in pixels
+// Limits within which two pixels show the same piece of surface. Chosen by eye.
+constexpr float same_piece_cosine = 0.93f;  // between their normals
+constexpr float same_piece_offset = 3;      // distance of one from the tangent plane of the other [pixels]
 
 bool show_same_piece(const Pixel& a, const Pixel& b, float pixel_size)
 {
@@ -24,7 +25,8 @@ Vec3f smoothed_colour(const PixelBuffer& buffer, int column, int row, float pixe
     const Pixel& pixel = buffer.at(column, row);
     if (pixel.subject == Pixel::mixed || pixel.subject == Pixel::backdrop) return pixel.colour;
 
-    // A tent one pixel wider than the block: every phase has the same weight, and the window is centred.
+    // The window is one pixel wider than the block, with half the weight at its edges. It is therefore centred, and
+    // every phase of the samples has the same weight.
     constexpr int half = InterleavedSamples::block / 2;
     Vec3f light = Vec3f::Zero();
     float total = 0;

@@ -32,8 +32,8 @@ struct PixelBuffer {
     }
 };
 
-/// Returns a pixel's linear colour with its light averaged over those pixels of the interleaved block around it that
-/// show the same piece of surface; reflectance, and with it every seam, stays sharp.
+/// Returns a pixel's linear colour. Its light is averaged over those pixels of the interleaved block around it that
+/// show the same piece of surface. Its reflectance is not, so that seams stay sharp.
 /// @param pixel_size  of the subject, for telling neighbouring layers apart [m]
 Vec3f smoothed_colour(const PixelBuffer& buffer, int column, int row, float pixel_size);
 

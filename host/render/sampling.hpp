@@ -24,9 +24,9 @@ inline std::uint32_t mixed_bits(std::uint32_t bits)
     return bits ^ (bits >> 16);
 }
 
-/// Evenly spread points of the unit disc for every pixel, such that the pixels of a 4 x 4 block together have one
-/// set 16 times as fine: averaging over any such block leaves little noise (Keller and Heidrich 2001, Interleaved
-/// Sampling).
+/// Evenly spread sample points of the unit disc for every pixel. The points of the pixels of a 4 x 4 block together are
+/// one set that is 16 times as fine, so that averaging over any such block leaves little noise. Source: Keller and
+/// Heidrich 2001, Interleaved Sampling.
 class InterleavedSamples {
 public:
     static constexpr int block = 4;  ///< [pixels]
@@ -48,7 +48,8 @@ public:
     }
 
 private:
-    // The first two dimensions of Sobol's sequence: aligned blocks of 2^k points are stratified in every way.
+    // Returns a point of the first two dimensions of Sobol's sequence, of which every aligned block of 2^k points has
+    // exactly one point in every elementary interval of area 2^-k.
     static std::array<float, 2> digital_point(std::uint32_t index)
     {
         std::uint32_t x = 0, y = 0, direction = 1u << 31;

@@ -20,9 +20,9 @@ struct SurfaceHit {
     bool back_side = false;     ///< The face's right-handed normal points away from the ray's origin.
     Vec3f position;             ///< On the flat face [m].
     Vec3f face_normal, normal;  ///< Unit; of the flat face and interpolated.
-    /// Where rays towards lights start: lifted to the smooth surface that the flat faces stand for, so that coarse
-    /// meshes show no facets along the edge of the shade (Hanika 2021, Hacking the shadow terminator, Ray Tracing
-    /// Gems II, chapter 4).
+    /// Start of rays towards lights: the point lifted to the smooth surface that the flat faces approximate, so that
+    /// coarse meshes show no facets where the light begins to graze (Hanika 2021, Hacking the shadow terminator, Ray
+    /// Tracing Gems II, chapter 4).
     Vec3f light_origin;
 };
 
@@ -42,7 +42,7 @@ private:
     std::vector<const DrawnMesh*> meshes_;
     EmbreeDevice device_;
     EmbreeScene scene_;
-    float lift_ = 0;  // keeps a new ray off the surface it starts on [m]
+    float lift_ = 0;  // distance of a new ray's start from the surface [m]
 };
 
 }  // namespace selvage

@@ -6,7 +6,8 @@
 namespace selvage {
 namespace {
 
-// Linear light; the units are such that a white surface in full key light is 1.
+// Linear colours of the lights and bodies; a white surface in full key light has about 1. All numbers of this file were
+// chosen by eye.
 const Vec3f key_colour(1.22f, 1.12f, 0.98f);
 const Vec3f fill_colour(0.07f, 0.08f, 0.10f);
 const Vec3f zenith_colour(0.46f, 0.50f, 0.56f);
@@ -24,7 +25,7 @@ float smooth_step(float low, float high, float value)
     return t * t * (3 - 2 * t);
 }
 
-// 1 on a line of the given half width and 0 well off it.
+// Returns 1 on a line of the given half width and 0 at a distance from it, with a smooth transition.
 float line_strength(float distance, float half_width)
 {
     return 1 - smooth_step(0.5f * half_width, 1.5f * half_width, std::abs(distance));
@@ -79,7 +80,8 @@ Appearance Studio::surface(const Ray& ray, const SurfaceHit& hit, DiscPoint choi
 
     const Vec3f to_sky = cosine_direction(hit.normal, choice);
     const bool sky_blocked = to_sky.dot(hit.face_normal) <= 0 || tracer_.is_blocked({hit.light_origin, to_sky});
-    // Blocked sky is replaced by an estimate of the light that the blocking surface, taken to be alike, sends back.
+    // Where the sky is blocked, its light is replaced by an estimate of the light reflected by the blocking surface,
+    // which is assumed to have the same colour.
     light += sky_blocked ? Vec3f(0.30f * albedo.cwiseProduct(horizon_colour)) : sky_colour(to_sky);
     light += (sky_blocked ? 0.15f : 1.f) * std::max(0.f, hit.normal.dot(to_fill_)) * fill_colour;
 

@@ -9,7 +9,7 @@
 
 namespace selvage {
 
-/// The cloth's drawing: its colours and the lines on it.
+/// The colours of the cloth and the lines drawn on it.
 struct ClothLook {
     std::vector<Vec3f> face_colours;  ///< Linear reflectance of each drawn face.
     LineMarks seams, hems;
@@ -22,7 +22,7 @@ struct PictureScene {
     ClothLook cloth;
     bool has_ground = false;
     float ground_height = 0;  ///< [m]
-    float radius = 0;         ///< Of what is framed, about the origin [m].
+    float radius = 0;         ///< Of the framed points, about the origin [m].
 };
 
 /// How a point looks: linear colour is reflectance times light.
@@ -40,7 +40,7 @@ public:
     /// Every argument outlives this object.
     Studio(const PictureScene& scene, const SceneTracer& tracer, const Camera& camera);
 
-    /// Returns what a surface looks like along a ray.
+    /// Returns the appearance of a surface along a ray.
     /// @param choice  picks the points of the key light and of the sky that are tested for visibility
     Appearance surface(const Ray& ray, const SurfaceHit& hit, DiscPoint choice) const;
     /// Returns linear colour of the backdrop.
@@ -48,7 +48,7 @@ public:
     Vec3f backdrop_colour(float height) const;
     /// Returns the point where a ray meets the ground close enough to the subject for its shadow to show.
     std::optional<Vec3f> ground_point(const Ray& ray) const;
-    /// Returns the share of the light that the subject leaves to the ground, from 0 to 1.
+    /// Returns the share of the light that reaches the ground past the subject, from 0 to 1.
     float ground_light(const Vec3f& point, DiscPoint choice) const;
 
 private:

@@ -12,16 +12,16 @@
 namespace selvage {
 namespace {
 
-constexpr int scout_rays = 4;    // a pixel in which all of these miss the subject takes no more
-constexpr float border = 0.12f;  // part of a view's width over which shadows fade towards its sides
-constexpr int tile = 32;         // [pixels]
-constexpr float same_surface_cosine = 0.8f;
+constexpr int scout_rays = 4;    // a pixel takes no more rays if all of these miss the subject
+constexpr float border = 0.12f;  // part of a view's width over which shadows fade towards its sides; chosen by eye
+constexpr int tile = 32;         // size of a task [pixels]; chosen by hand, not measured
+constexpr float same_surface_cosine = 0.8f;  // between normals within one pixel, else it shows a fold; chosen by eye
 
 struct UnitSquare {
     float x, y;
 };
 
-// A grid, the four corners first: they are the scouts.
+// Returns a grid of sample positions, the four corners first, since they are the scout rays.
 std::vector<UnitSquare> places_in_pixel(int samples_per_axis)
 {
     std::vector<UnitSquare> corners, others;
@@ -48,14 +48,14 @@ void for_every_pixel(int width, int height, const Visit& visit)
 
 float display_value(float linear)
 {
-    // The upper part rolls off towards white; then the transfer function of sRGB (IEC 61966-2-1).
+    // Values above the shoulder approach white smoothly. The transfer function of sRGB (IEC 61966-2-1) follows.
     constexpr float shoulder = 0.62f;
     const float above = (linear - shoulder) / (1 - shoulder);
     const float toned = above > 0 ? shoulder + (1 - shoulder) * (1 - std::exp(-above)) : std::max(linear, 0.f);
     return toned <= 0.0031308f ? 12.92f * toned : 1.055f * std::pow(toned, 1 / 2.4f) - 0.055f;
 }
 
-// Rounds up or down by chance, so that smooth gradients show no bands.
+// Dithers: rounds up or down at random, so that smooth gradients show no bands.
 Rgb quantised(const Vec3f& colour, int column, int row)
 {
     std::uint32_t bits = mixed_bits(std::uint32_t(column) * 0x9e3779b9u + std::uint32_t(row));
