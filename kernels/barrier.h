@@ -1,9 +1,11 @@
-// The barrier b(s) that keeps surfaces apart; s is a gap over the one at which contact sets in.
+// The logarithmic barrier b(s) of incremental potential contact. s is the gap divided by the gap at which contact sets
+// in, the d_hat of the source.
 //     s >= 1:        b = 0
 //     s0 < s < 1:    b = -(s - 1)^2 ln s
-//     -1 < s <= s0:  the second-order continuation of b at s0 = 0.02
-//     s <= -1:       its tangent: a vertex that starts deep inside is pushed out with a bounded force
-// Source: Li and others 2020, eq. 6, continued so that cloth that starts inside a body has a finite force.
+//     -1 < s <= s0:  the second-order Taylor polynomial of b at s0 = 0.02
+//     s <= -1:       the tangent of that polynomial at s = -1, so that the force on a vertex deep inside is bounded
+// Source: Li and others 2020, eq. 6. The continuation below s0 gives cloth that starts inside a body a finite force.
+// s0 was chosen by hand; not measured.
 #pragma once
 #include "portable.h"
 
@@ -38,7 +40,8 @@ KERNEL_FN barrier_jet barrier_at(real s)
     return b;
 }
 
-// The barrier of pairs, which never touch: without the continuation no force gets the better of it.
+// The barrier for pairs of primitives, without the continuation: it grows without bound as s goes to 0, so no force can
+// close the gap. The CCD filter keeps s positive; the floor at 1e-9 only keeps the logarithm finite.
 KERNEL_FN barrier_jet open_barrier_at(real s)
 {
     barrier_jet b;

@@ -1,5 +1,5 @@
-// The scalar type of the linear solver's matrices and vectors. A source file that includes this is built once per
-// precision; sums over vectors are always taken in double.
+// The scalar type of the linear solver's matrices and vectors. A source file that includes this header is compiled once
+// per precision. Sums over vectors are always accumulated in double.
 #pragma once
 #include "portable.h"
 #ifdef SELVAGE_LINEAR

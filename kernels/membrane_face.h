@@ -1,11 +1,11 @@
-// A constant-strain triangle in the fabric's weft (u) and warp (v) directions: what every membrane law shares.
+// The constant-strain triangle in the fabric's weft (u) and warp (v) directions that every membrane law uses.
 //     U = sum_j wu_j x_j,   V = sum_j wv_j x_j                     (deformed weft and warp directions)
 //     e_uu = (U.U - 1)/2,   e_vv = (V.V - 1)/2,   g = U.V          (Green-Lagrange; g is twice the tensor's shear)
 //     f_j = -A (s_uu wu_j U + s_vv wv_j V + s_uv (wu_j V + wv_j U))  [N]
 // The weights are constant: sum w = 0, sum wu u = 1, sum wu v = 0 (and the reverse for wv).
-// Source: Volino, Magnenat-Thalmann and Faure 2009, eqs. 1-12, as restated in D5 and D6.
-// The projected stiffness keeps the tensile part of the stress only (negative principal stresses are cut), no negative
-// tangent, and no more coupling than sqrt(ku kv): each element matrix is then a sum of squares.
+// Source: Volino, Magnenat-Thalmann and Faure 2009, eqs. 1-12.
+// The projected stiffness sets negative principal stresses and negative tangents to zero and limits the coupling to
+// sqrt(ku kv). Each element matrix is then a sum of squares, hence positive semidefinite.
 #pragma once
 #include "term_args.h"
 
@@ -48,7 +48,7 @@ KERNEL_FN void membrane_add_force(int face, real area, const membrane_state* s, 
     add3(face_force + 6 * fs, fs, face, f2);
 }
 
-// Cuts negative tangents and coupling beyond sqrt(ku kv).
+// Sets negative tangents to zero and limits the coupling to sqrt(ku kv).
 KERNEL_FN void membrane_project_tangents(membrane_state* s)
 {
     s->ku = larger(s->ku, REAL(0));
@@ -57,7 +57,7 @@ KERNEL_FN void membrane_project_tangents(membrane_state* s)
     s->kc = smaller(s->kc, sqrt(s->ku * s->kv));
 }
 
-// Cuts the negative principal stresses of [s_uu s_uv; s_uv s_vv] in closed form.
+// Sets the negative principal stresses of [s_uu s_uv; s_uv s_vv] to zero, in closed form.
 KERNEL_FN void membrane_project_stress(membrane_state* s)
 {
     real mean = REAL(0.5) * (s->s_uu + s->s_vv), spread = REAL(0.5) * (s->s_uu - s->s_vv);

@@ -1,6 +1,6 @@
 // Makes one kernel source valid as C++20 and as OpenCL C 1.2. No other kernel file tests the language.
 #pragma once
-// clang-format off: what stands within a branch is set in.
+// clang-format off: it would remove the indentation of the preprocessor branches.
 #ifdef __OPENCL_C_VERSION__
     #define GLOBAL __global
     #define RESTRICT restrict
@@ -18,7 +18,7 @@ typedef float3 vec3;
     #include <cmath>
     #define GLOBAL
     #define RESTRICT __restrict__
-typedef double real;  // float positions alone leave force residuals above 5 %
+typedef double real;  // with float positions the relative force residual stays above 5 %
 struct vec3 {
     real x, y, z;
 };
@@ -27,7 +27,7 @@ using std::exp;
 using std::fabs;
 using std::log;
 using std::sqrt;
-// In line: calls of the C library's fmax cost more than the kernels around them.
+// Written out because a call of the C library's fmax costs more than the kernels that use it.
 static inline real larger(real a, real b) { return a > b ? a : b; }
 static inline real smaller(real a, real b) { return a < b ? a : b; }
 static inline vec3 make_vec3(real x, real y, real z) { return {x, y, z}; }
@@ -43,10 +43,10 @@ static inline real length(vec3 a) { return sqrt(dot(a, a)); }
 #endif
 // clang-format on
 #define KERNEL_FN static inline
-typedef float block_real;  // stiffness slots: a search direction needs no more digits
+typedef float block_real;  // of stiffness slots: float suffices because stiffness affects only the search direction
 #define REAL(constant) ((real)(constant))
 
-// A field with several components stores one plane per component, `stride` items apart.
+// A field with several components is a structure of arrays: one plane per component, `stride` entries apart.
 KERNEL_FN vec3 load3(GLOBAL const real* plane, int stride, int item)
 {
     return make_vec3(plane[item], plane[stride + item], plane[2 * stride + item]);
@@ -66,7 +66,7 @@ KERNEL_FN void add3(GLOBAL real* plane, int stride, int item, vec3 value)
     plane[2 * stride + item] += value.z;
 }
 
-// The symmetric 3x3 matrices of the kernels, by rows of the upper triangle.
+// A symmetric 3x3 matrix: the rows of its upper triangle.
 typedef struct {
     real xx, xy, xz, yy, yz, zz;
 } sym3;

@@ -1,14 +1,16 @@
-// The exponential repulsion q(s) and its integral Q; s is a gap over the one at which contact sets in.
+// The exponential repulsion q(s) and its integral Q. s is the gap divided by the gap at which contact sets in.
 //     s >= 1:        q = 0
 //     s0 < s < 1:    q = exp(1/s) - e,    Q = integral of q from s to 1 = Ei(1/s) - Ei(1) - s exp(1/s) + e s
-//     s <= s0:       q = q(s0), with s0 = 0.1: a bounded force, also for a vertex inside a body
-// Source: Fan, Zhou, Wang and Yuen 1998 (A5), f_r = c_r exp(1/delta), corrected: the printed law jumps to c_r exp(1/d)
-// where contact sets in, overflows as delta goes to 0 and draws inwards below. Shifted it begins at zero, capped it
-// ends at exp(10) - e. 1/delta has a unit there; here the gap at which contact sets in is that of length.
+//     s <= s0:       q = q(s0), with s0 = 0.1, so that the force is bounded, also for a vertex inside a body
+// Source: Fan, Zhou, Wang and Yuen 1998, f_r = c_r exp(1/delta) for delta <= d, with three corrections. The printed law
+// jumps to c_r exp(1/d) at delta = d; the shift by -e removes the jump. It overflows as delta goes to 0 and attracts
+// for delta < 0; the cap at q(s0) = exp(10) - e removes both. Its exponent 1/delta is not dimensionless; here delta is
+// divided by d. s0 was chosen by hand; not measured.
 #pragma once
 #include "barrier.h"
 
-// Ei(u) - Ei(1) for u in [1, 10] by the series ln u + sum of u^k / (k k!), whose terms are all positive.
+// Ei(u) - Ei(1) for u in [1, 10] by the series ln u + sum of (u^k - 1) / (k k!). All its terms are positive, so nothing
+// cancels, and at u = 10 the first term left out, k = 61, is below 1e-24.
 KERNEL_FN real exponential_integral_from_one(real u)
 {
     real term = REAL(1), of_one = REAL(1), sum = log(u);  // u^k / k! and 1 / k!

@@ -1,9 +1,10 @@
-// A stress-strain curve made of cubic ranges, and its exact integral.
+// A stress-strain curve that is a cubic polynomial on each of its ranges, and its exact integral.
 //     range p, start_p <= e < start_(p+1),  d = e - start_p:
 //         s = s_p + a d + b d^2 + c d^3,      W = W_p + s_p d + a d^2/2 + b d^3/3 + c d^4/4,      t = ds/de
-// The first range starts at e = 0 with s = W = 0; below, in compression, s = a e. The last range has no end.
-// Source: piecewise linearised curves of Kawabata's instruments (A3) and the polynomials of Volino, Magnenat-Thalmann
-// and Faure 2009, section 4, are both of this form. Unused ranges start beyond any strain.
+// The first range starts at e = 0 with s = W = 0. In compression, e < 0, the curve is s = a e. The last range has no
+// end. Unused ranges start beyond any strain.
+// Source: both the piecewise linear curves that Fan, Zhou, Wang and Yuen 1998 take from Kawabata's instruments and the
+// polynomials of Volino, Magnenat-Thalmann and Faure 2009, section 4, have this form.
 #pragma once
 #include "portable.h"
 
@@ -14,7 +15,7 @@ typedef struct {
     real energy, stress, tangent;
 } curve_value;
 
-// Number k of range p stands at curve[(CURVE_NUMBERS * p + k) * stride].
+// Evaluates a curve. Number k of range p is curve[(CURVE_NUMBERS * p + k) * stride].
 KERNEL_FN curve_value curve_at(GLOBAL const real* curve, int stride, real strain)
 {
     int range = 0;
@@ -30,7 +31,7 @@ KERNEL_FN curve_value curve_at(GLOBAL const real* curve, int stride, real strain
     return value;
 }
 
-// The odd continuation, for shear: s(-e) = -s(e).
+// Evaluates the odd continuation of a curve, s(-e) = -s(e), which shear needs.
 KERNEL_FN curve_value odd_curve_at(GLOBAL const real* curve, int stride, real strain)
 {
     curve_value value = curve_at(curve, stride, fabs(strain));

@@ -2,7 +2,7 @@
 #pragma once
 #include "portable.h"
 
-// Kinds of items: each has a count and a padded stride.
+// Kinds of items. Each has a count and a stride, the count rounded up for alignment.
 // clang-format off
 #define ITEM_KINDS(KIND)                                                                      \
     KIND(vertex) KIND(face) KIND(hinge) KIND(stitch) KIND(spring) KIND(pair) KIND(body_point) \
@@ -10,8 +10,9 @@
     KIND(face_slot) KIND(hinge_slot) KIND(stitch_slot) KIND(spring_slot) KIND(pair_slot)
 // clang-format on
 
-// Kinds whose items join several vertices, with the number of corners: their forces are gathered at vertices.
-// Elements belong to the cloth: their stiffness has a fixed place in the matrix. Pairs come and go with contact.
+// Kinds whose items join several vertices, with the number of corners. Their forces are gathered at the vertices.
+// Elements belong to the cloth, so their stiffness has a fixed place in the matrix. Pairs appear and disappear with
+// contact, so theirs has none.
 #define ELEMENT_KINDS(KIND) \
     KIND(face, 3)           \
     KIND(hinge, 4)          \
@@ -25,9 +26,9 @@ typedef struct {
 } mesh_sizes;
 #undef SIZE_MEMBERS
 
-// What a stiffness function is asked for.
+// Which stiffness a term computes.
 typedef struct {
-    int projected;  // 1: cut off what could make the element matrix indefinite
+    int projected;  // 1: drop the parts that could make the element matrix indefinite; 0: exact second derivatives
 } stiffness_mode;
 
 #define FIELD(type, name, per, components, unit, meaning) typedef type name##_type;
@@ -46,8 +47,8 @@ typedef struct {
 // Position of block (a, b), a < b, in the stiffness slot of an element with `corners` vertices.
 KERNEL_FN int block_index(int corners, int a, int b) { return a * (2 * corners - a - 1) / 2 + b - a - 1; }
 
-// The nine entries of a block stand together: the assembly of a matrix row reads whole blocks of scattered items
-// and one line of cache then serves a whole block.
+// Adds a block to a stiffness slot. The nine entries of a block are contiguous because the assembly of a matrix row
+// reads whole blocks of scattered items, and one cache line then serves a whole block.
 KERNEL_FN void add_block(GLOBAL block_real* slots, int stride, int item, int block, mat3 m)
 {
     GLOBAL block_real* to = slots + 9 * (block * stride + item);

@@ -1,14 +1,14 @@
-// The velocity rule of contact: what a vertex on a body's surface does instead of being pressed by it. n is the
-// surface's normal, g = n . x - offset the gap, d the gap at which the vertex touches; with v_n = (v . n) n, v_t = v -
-// v_n:
+// The velocity rule: contact of vertices with bodies by a velocity filter instead of a force. n is the normal of the
+// nearest surface, g = n . x - offset the gap, d the gap at which a vertex touches, v_n = (v . n) n and v_t = v - v_n.
 //     sliding if |v_t| > k_f |v_n|:   v_t' = v_t - k_f |v_n| v_t / |v_t|,     else v_t' = 0
 //     v' = v_t' - k_r v_n             where g < d and v . n < 0
-// It acts from when the vertex touched, t = (d - g) / |v_n| ago but at most a step, so that it also moves to where v'
-// would have taken it: x' = x + t (v' - v). What is beyond the surface still, or moves out already, is put on it.
-// Source: the thesis on photographed panels (B15), applied to vertices that approach only: as printed it would turn
-// those back that leave. k_r is the restitution, k_f Coulomb's coefficient. Nothing here knows of edges, faces or cloth
-// on cloth, nor of forces: a vertex may pass through what is thinner than its way in a step, and it has no force at
-// rest.
+// k_r is the coefficient of restitution, k_f Coulomb's coefficient. The vertex touched the surface the time
+// t = (d - g) / |v_n| ago, at most one step; the position is corrected as if v' had acted since then:
+// x' = x + t (v' - v). A vertex that is still closer than d, or was leaving already, is projected to g = d.
+// Source: a thesis on garment models from photographed panels. Unlike the printed rule this one leaves departing
+// vertices alone, which the printed rule would turn back.
+// Limits: the rule sees vertices only, not edges, faces or cloth on cloth. A vertex can pass through anything thinner
+// than its displacement in a step, and a vertex at rest has no contact force.
 #pragma once
 #include "../term_args.h"
 

@@ -1,8 +1,9 @@
-// Contact with bodies of closed form: sphere, plane (a half-space) and capsule (a segment grown by a radius).
+// Contact with bodies that have a closed-form distance: sphere, plane (a half-space) and capsule (all points within a
+// radius of a segment).
 //     gap g(x) [m]: signed distance to the surface, negative inside        normal n = grad g, |n| = 1
 //     crossing: smallest t in [0, 1] at which x0 + t (x1 - x0) enters the body, or NO_CROSSING
+// A path that starts inside never crosses: the shapes are convex, so a straight path cannot enter them again.
 // Source: distance functions as in Ericson 2005, Real-Time Collision Detection, sections 5.1 and 5.3.
-// A path that starts inside never crosses: the shapes are convex, so it cannot enter a second time.
 #pragma once
 #include "../portable.h"
 
@@ -36,7 +37,7 @@ KERNEL_FN body_contact sphere_contact(vec3 x, vec3 center, real radius)
     real distance = length(d);
     body_contact contact;
     contact.gap = distance - radius;
-    contact.normal = make_vec3(REAL(0), REAL(0), REAL(1));  // at the centre every direction is as good
+    contact.normal = make_vec3(REAL(0), REAL(0), REAL(1));  // the centre has no gradient: any unit vector serves
     if (distance > REAL(0)) contact.normal = (REAL(1) / distance) * d;
     return contact;
 }
@@ -56,7 +57,7 @@ KERNEL_FN body_contact analytic_contact(vec3 x, const analytic_body* body)
     return capsule_contact(x, body->center, body->end, body->radius);
 }
 
-// Entry of a line into a quadric a t^2 + 2 b t + c = 0 that is convex and has c >= 0 at the start.
+// The parameter t at which a line enters the convex quadric a t^2 + 2 b t + c = 0; the line starts outside, c >= 0.
 KERNEL_FN real quadratic_entry(real a, real b, real c)
 {
     real discriminant = b * b - a * c;
@@ -71,7 +72,7 @@ KERNEL_FN real sphere_entry(vec3 x0, vec3 step, vec3 center, real radius)
     return quadratic_entry(dot(step, step), dot(d, step), dot(d, d) - radius * radius);
 }
 
-// Entry into the capsule's straight side: the infinite cylinder, kept between its two ends.
+// Entry into the lateral surface of a capsule: the infinite cylinder, restricted to the part between the two ends.
 KERNEL_FN real side_entry(vec3 x0, vec3 step, vec3 first, vec3 last, real radius)
 {
     vec3 axis = last - first;
@@ -82,7 +83,7 @@ KERNEL_FN real side_entry(vec3 x0, vec3 step, vec3 first, vec3 last, real radius
     vec3 d = from_first - along0 * axis;
     vec3 across = step - along_step * axis;
     real c = dot(d, d) - radius * radius;
-    if (c < REAL(0)) return NO_CROSSING;  // beyond an end: only the end's sphere can be entered
+    if (c < REAL(0)) return NO_CROSSING;  // starts in the cylinder beyond an end: it can enter only that end's sphere
     real t = quadratic_entry(dot(across, across), dot(d, across), c);
     real along = along0 + t * along_step;
     return along >= REAL(0) && along <= REAL(1) ? t : NO_CROSSING;

@@ -1,7 +1,8 @@
-// Assembles one row of 3x3 blocks of the stiffness matrix from the element stiffness slots around a vertex.
+// Assembles one row of 3x3 blocks of the system matrix from the element stiffness slots around a vertex.
 //     A_ij = sum over elements with corners (a at i, b at j) of K_ab,   i != j
 //     A_ii = -sum over elements with corner a at i of sum_b K_ab  +  vertex stiffness + inertia m_i I
-// Rows of pinned vertices become those of the identity; their columns stay and tell how others follow them.
+// The rows of pinned vertices become rows of the identity. Their columns are kept: a prescribed displacement of a
+// pinned vertex acts on its neighbours through them.
 #pragma once
 #include "../linear_scalar.h"
 #include "../term_args.h"
@@ -17,11 +18,11 @@ typedef struct {
     real inertia;  // 1/dt^2 [1/s^2]
 } assemble_args;
 
-// One kind of elements around the vertices.
+// The elements of one kind around each vertex.
 typedef struct {
     GLOBAL const int* RESTRICT slots;             // first and past-last entry of each vertex
     GLOBAL const int* RESTRICT slot;              // 4 * element + corner
-    GLOBAL const unsigned short* RESTRICT place;  // per slot entry and corner: block of the row to add to
+    GLOBAL const unsigned short* RESTRICT place;  // per slot entry and corner: index within the row of the block
     GLOBAL const block_real* RESTRICT stiffness;  // null: the kind is not in use
     int corners, stride;
 } assemble_kind;
@@ -31,7 +32,8 @@ KERNEL_FN void assemble_clear(int row, const assemble_args* a)
     for (int k = 9 * a->row_begin[row]; k < 9 * a->row_begin[row + 1]; ++k) a->block[k] = 0;
 }
 
-// Adds an off-diagonal block, or its transpose, to its place and takes it from the diagonal block.
+// Adds an off-diagonal block (its transpose if not `upright`) to the row and subtracts it from the diagonal block,
+// since the rows of an element matrix sum to zero.
 KERNEL_FN void assemble_add(GLOBAL linear* RESTRICT to, GLOBAL linear* RESTRICT own,
                             GLOBAL const block_real* RESTRICT from, int upright)
 {

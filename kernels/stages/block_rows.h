@@ -1,4 +1,4 @@
-// Operations on rows of 3x3 blocks and on vectors with three entries per vertex, xyz together.
+// Operations on rows of 3x3 blocks and on vectors that store x, y and z of a vertex contiguously.
 #pragma once
 #include "../linear_scalar.h"
 
@@ -47,9 +47,10 @@ KERNEL_FN void block_diagonal_product(int row, const block_diagonal_args* a)
     y[2] = y2;
 }
 
-// One step of a smoother over block Jacobi, for one row:
+// One step of a multigrid smoother with a block Jacobi preconditioner D, for one row:
 //     d' = keep d + gain D^-1 (b - A x),   x' = x + d'
-// In one pass, x' apart from x: four vectors less to move than with a pass for each operation.
+// All of it is one pass over the matrix, with x' in an array of its own. A separate pass for each operation would move
+// four more vectors through memory.
 typedef struct {
     GLOBAL const int* RESTRICT row_begin;
     GLOBAL const int* RESTRICT column;
@@ -86,7 +87,7 @@ KERNEL_FN void block_row_smooth(int row, const block_smooth_args* a)
     }
 }
 
-// The same from x = 0 and d = 0, where no product is needed.
+// The same step from x = 0 and d = 0, which needs no matrix product.
 KERNEL_FN void block_row_smooth_zero(int row, const block_smooth_args* a)
 {
     GLOBAL const linear* m = a->inverse + 9 * row;

@@ -1,7 +1,8 @@
-// The part of the plate's stiffness that does not stand in the matrix: y += J^T (G - W) J x, in three stages.
-//     turn_h = J_h . x,      moment_h = sum_k G_hk turn_k - W_h turn_h,      y_v += sum over hinges at v of J_h^T
-//     moment_h
-// Against an assembled matrix with 37 blocks a row this moves less than half of the bytes. See plate.h.
+// The part of the plate's stiffness that is not assembled into the matrix: y += J^T (G - W) J x, in three stages.
+//     turn_h = J_h . x                                  for each hinge h
+//     moment_h = sum_k G_hk turn_k - W_h turn_h         for each hinge h
+//     y_v += sum over hinges at v of J_h^T moment_h     for each vertex v
+// This moves less than half of the bytes of an assembled matrix, which would have 37 blocks a row. See terms/plate.h.
 #pragma once
 #include "../linear_scalar.h"
 #include "../term_args.h"
@@ -15,7 +16,7 @@ typedef struct {
     GLOBAL const block_real* RESTRICT coupling_rigidity;
     GLOBAL const int* RESTRICT hinge_slots;  // hinges around a vertex
     GLOBAL const int* RESTRICT hinge_slot;
-    GLOBAL const linear* RESTRICT x;  // xyz of one vertex together
+    GLOBAL const linear* RESTRICT x;  // x, y and z of a vertex are contiguous
     GLOBAL linear* RESTRICT turn;
     GLOBAL linear* RESTRICT moment;
     GLOBAL linear* RESTRICT y;

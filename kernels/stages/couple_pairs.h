@@ -1,8 +1,9 @@
-// The stiffness of pairs in contact. It does not stand in the matrix, whose pattern would change with every contact:
+// The stiffness of pairs in contact:
 //     K_vw = sum over pairs with corners a at v, b at w of weight_a weight_b K
-// Its diagonal blocks are added to the vertices', so that the preconditioner knows of them; the product adds the rest:
+// It is not assembled into the matrix, because its sparsity pattern changes with every contact. Its diagonal blocks are
+// added to those of the vertices, so that the preconditioner sees them. The matrix-vector product adds the rest:
 //     r_p = sum_i weight_i x_i,      y_v += sum over pairs at v of weight_a K (r_p - weight_a x_v)
-// for the blocks of contact and of friction, each with weights of its own.
+// Both are done for the block of contact and for that of friction, each with its own weights.
 #pragma once
 #include "../linear_scalar.h"
 #include "../term_args.h"
@@ -11,7 +12,7 @@ typedef struct {
     mesh_sizes size;
     GLOBAL const int* RESTRICT pair_vertex;
     GLOBAL const real* RESTRICT weight;       // of contact
-    GLOBAL const real* RESTRICT held_weight;  // of friction; null: there is none
+    GLOBAL const real* RESTRICT held_weight;  // of friction; null: no friction
     GLOBAL const block_real* RESTRICT stiffness;
     GLOBAL const int* RESTRICT pair_slots;  // pairs around a vertex
     GLOBAL const int* RESTRICT pair_slot;
@@ -24,7 +25,7 @@ typedef struct {
 
 typedef struct {
     pair_list list;
-    GLOBAL const linear* RESTRICT x;   // xyz of one vertex together; pinned vertices hold 0
+    GLOBAL const linear* RESTRICT x;   // x, y and z of a vertex are contiguous; 0 for pinned vertices
     GLOBAL linear* RESTRICT relative;  // r of contact, then of friction: six per pair
     GLOBAL linear* RESTRICT y;
     GLOBAL const real* RESTRICT inv_mass;
@@ -63,7 +64,7 @@ KERNEL_FN void couple_pairs_gather(int vertex, const couple_pairs_args* a)
 {
     int ps = a->list.size.pair_stride, end = a->list.pair_slots[a->list.size.vertex_stride + vertex];
     linear sum[3] = {0, 0, 0};
-    if (a->inv_mass[vertex] == REAL(0)) return;  // the row of a pinned vertex is that of the identity
+    if (a->inv_mass[vertex] == REAL(0)) return;  // the row of a pinned vertex is a row of the identity
     for (int s = a->list.pair_slots[vertex]; s < end; ++s) {
         int pair = a->list.pair_slot[s] >> 2, corner = a->list.pair_slot[s] & 3;
         for (int kind = 0; kind < (a->list.held_weight ? 2 : 1); ++kind) {

@@ -1,4 +1,5 @@
-// Gathers the forces of elements at a vertex, in the fixed order of its slot list: no atomics, reproducible sums.
+// Sums the forces of the elements around a vertex in the fixed order of its slot list, so that the sum needs no atomics
+// and is reproducible.
 //     f_v += sum over (element, corner) of element_force[corner]  [N]
 #pragma once
 #include "../term_args.h"

@@ -1,8 +1,8 @@
-// Lets friction take up at once, as far as it can, what would set a resting vertex in motion.
-//     t = (I - n n^T) f,   anchor = x - r t / max(L, |t|)   where v = 0 and L > 0, f the force of all else on the
-//     vertex
-// Source: Coulomb's law at rest; see terms/friction.h. Without it cloth that starts at rest would fall into its
-// anchors' elastic way, and slide off where friction only just holds it.
+// Places the friction anchor of a vertex at rest so that friction balances the tangential force, up to the limit L.
+//     t = (I - n n^T) f,   anchor = x - r t / max(L, |t|)   where v = 0 and L > 0
+// f is the sum of all other forces on the vertex, r the stick distance. Without this, cloth that starts at rest would
+// first accelerate over the elastic range of its anchors, and would then slide off where friction barely holds it.
+// Source: Coulomb's law at rest; see terms/friction.h.
 #pragma once
 #include "../portable.h"
 
@@ -23,6 +23,6 @@ KERNEL_FN void hold_friction_vertex(int vertex, const hold_friction_args* a)
     real limit = a->limit[vertex];
     if (limit <= REAL(0) || dot(v, v) > REAL(0)) return;
     vec3 f = load3(a->force, a->stride, vertex), t = f - dot(n, f) * n;
-    real way = a->stick_distance / larger(limit, length(t));
-    store3(a->anchor, a->stride, vertex, load3(a->pos, a->stride, vertex) - way * t);
+    real compliance = a->stick_distance / larger(limit, length(t));  // [m/N]
+    store3(a->anchor, a->stride, vertex, load3(a->pos, a->stride, vertex) - compliance * t);
 }

@@ -1,7 +1,7 @@
-// Ends a step for the friction anchor of a vertex.
-//     L = mu N;   off contact (L = 0) the anchor goes with the vertex; beyond the stick distance r it is drawn along:
-//     anchor = x - w r / q,   w = (I - n n^T)(x - anchor),  q = |w|
-// Source: see terms/friction.h.
+// Updates the friction anchor and the limit L = mu N of a vertex at the end of a step.
+//     L = 0:   anchor = x                (out of contact the anchor moves with the vertex)
+//     q > r:   anchor = x - w r / q      (a sliding vertex drags its anchor at the stick distance r)
+// with w = (I - n n^T)(x - anchor) and q = |w|. Source: see terms/friction.h.
 #pragma once
 #include "../terms/body_contact.h"
 #include "../terms/body_repulsion.h"
@@ -25,7 +25,7 @@ KERNEL_FN void settle_friction_vertex(int vertex, const settle_friction_args* a)
     vec3 d = x - load3(a->anchor, vs, vertex);
     vec3 w = d - dot(n, d) * n;
     real q = length(w);
-    // A vertex that has just come into contact sticks where it is.
+    // A vertex that has just come into contact starts to stick at its present position.
     vec3 anchor =
         a->limit[vertex] > REAL(0) ? x - (smaller(REAL(1), a->stick_distance / larger(q, REAL(1e-30)))) * w : x;
     a->limit[vertex] = limit;

@@ -1,6 +1,7 @@
-// Ends a step for the friction of a pair in contact.
-//     L = mu N;   the bristle is the way w, drawn in to the stick distance, and lies across the new normal;
-//     weights and normal are held from here on. A pair that has just come into contact sticks where it is.
+// Updates the friction state of a pair in contact at the end of a step: the limit L = mu N, the weights and normal that
+// the next step holds, and the bristle.
+//     bristle = (I - n n^T) w min(1, r / |w|),   n the new normal,   r the stick distance
+// The bristle of a pair that has just come into contact is zero, so the pair starts to stick where it is.
 // Source: see terms/cloth_friction.h.
 #pragma once
 #include "../terms/cloth_contact.h"
@@ -8,7 +9,7 @@
 #include "../terms/cloth_repulsion.h"
 
 typedef struct {
-    cloth_contact_args contact;      // its frames are those of the present positions
+    cloth_contact_args contact;      // weights, normals and distances are those of the present positions
     cloth_repulsion_args repulsion;  // where contact has no stiffness
     cloth_friction_args friction;
     GLOBAL real* RESTRICT held_weight;
@@ -20,7 +21,7 @@ typedef struct {
 KERNEL_FN void settle_pair(int pair, const settle_pairs_args* a)
 {
     int ps = a->contact.size.pair_stride;
-    vec3 n = load3(a->contact.pair_normal, ps, pair), w = pair_way(pair, &a->friction);
+    vec3 n = load3(a->contact.pair_normal, ps, pair), w = pair_slip(pair, &a->friction);
     real push = a->contact.stiffness > REAL(0) ? cloth_contact_push(pair, &a->contact)
                                                : cloth_repulsion_push(pair, &a->repulsion);
     real limit = a->friction.pair_friction[pair] * push;

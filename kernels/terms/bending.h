@@ -3,9 +3,10 @@
 //     M = 2 c (sin(theta/2) - sin(theta0/2))  [N m]                 f_i = -M dtheta/dx_i  [N]
 //     E = c (4 (cos(theta0/2) - cos(theta/2)) - 2 (theta - theta0) sin(theta0/2))  [J]
 // For small angles E = c/2 (theta - theta0)^2. The source's stiffness is k_e = 4 D.
-// Source: Bridson, Marino and Fedkiw 2003, section 4, as restated in D7. The rigidity shown by a mesh of hinges
-// depends on the mesh (0.75 to 3 times D); plate.h does not have that fault.
-// The projected stiffness drops M d2theta/dx2; what is left, c cos(theta/2) times a square, is never negative.
+// Source: Bridson, Marino and Fedkiw 2003, section 4.
+// The effective rigidity of a sheet of such hinges depends on the mesh (0.75 to 3 times D); that of plate.h does not.
+// The projected stiffness drops M d2theta/dx2. The rest, c cos(theta/2) g g^T with g = dtheta/dx, is positive
+// semidefinite.
 #pragma once
 #include "../hinge.h"
 

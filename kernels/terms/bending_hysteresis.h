@@ -1,14 +1,16 @@
-// Friction between the yarns of a bending cloth: a hinge hangs on an elastic anchor that slips at the moment L.
+// Bending hysteresis from the friction between yarns: each hinge is tied to an elastic anchor, which slips at a moment
+// L.
 //     phi = 2 (sin(theta/2) - sin(theta0/2)),  w = phi - anchor,  q = |w|,  r = stick curvature * width of the hinge
-//     q <= r:  E = L q^2 / (2 r),    M = L w / r         (sticks: returns to its anchor)
+//     q <= r:  E = L q^2 / (2 r),    M = L w / r         (sticks: elastic return to the anchor)
 //     q >  r:  E = L (q - r / 2),    M = L w / q         (slips: |M| = L)
 //     f_i = -M cos(theta/2) dtheta/dx_i
-// After every step the anchor is drawn along so that q <= r (stages/settle_hysteresis.h). Bent to and fro, the cloth
-// shows a moment loop of the width 2HB beside its elastic moment, whatever the mesh (host/solver/state/hysteresis.hpp).
+// After every step a slipping hinge drags its anchor so that q <= r (stages/settle_hysteresis.h). A cloth that is bent
+// to and fro then has a hysteresis loop of width 2HB around its elastic moment, on any mesh
+// (host/solver/state/hysteresis.hpp).
 // Source: a frictional couple beside the rigidity as in Grosberg 1966 and Kawabata 1980; the elastic anchor is that of
 // terms/friction.h.
-// The projected stiffness takes M / w for dM/dphi, which is never negative and which a slipping hinge needs to see
-// that it sticks as soon as it turns back; it drops M d2phi/dx2.
+// The projected stiffness drops M d2phi/dx2 and uses the secant M / w in place of the tangent dM/dphi. The secant is
+// never negative, and it stays positive for a slipping hinge, which sticks again as soon as its motion reverses.
 #pragma once
 #include "../hinge.h"
 
@@ -22,7 +24,8 @@
 // clang-format on
 TERM_ARGS(bending_hysteresis)
 
-KERNEL_FN real bending_hysteresis_way(int hinge, const hinge_state* h, const bending_hysteresis_args* a)
+// The elastic turn w of the hinge from its anchor [1].
+KERNEL_FN real bending_hysteresis_turn(int hinge, const hinge_state* h, const bending_hysteresis_args* a)
 {
     return REAL(2) * (h->sine - a->hinge_rest_sine[hinge]) - a->hinge_anchor[hinge];
 }
@@ -30,7 +33,7 @@ KERNEL_FN real bending_hysteresis_way(int hinge, const hinge_state* h, const ben
 KERNEL_FN real bending_hysteresis_energy(int hinge, const bending_hysteresis_args* a)
 {
     hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
-    real q = fabs(bending_hysteresis_way(hinge, &h, a)), r = a->stick_curvature * a->hinge_width[hinge];
+    real q = fabs(bending_hysteresis_turn(hinge, &h, a)), r = a->stick_curvature * a->hinge_width[hinge];
     real limit = a->scale * a->hinge_hysteresis[hinge];
     return q <= r ? limit * q * q / (REAL(2) * r) : limit * (q - REAL(0.5) * r);
 }
@@ -39,7 +42,7 @@ KERNEL_FN void bending_hysteresis_force(int hinge, const bending_hysteresis_args
 {
     int hs = a->size.hinge_stride;
     hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
-    real w = bending_hysteresis_way(hinge, &h, a), r = a->stick_curvature * a->hinge_width[hinge];
+    real w = bending_hysteresis_turn(hinge, &h, a), r = a->stick_curvature * a->hinge_width[hinge];
     real moment = a->scale * a->hinge_hysteresis[hinge] * w / larger(fabs(w), r) * h.cosine;
     for (int i = 0; i < 4; ++i) add3(a->hinge_force + 3 * i * hs, hs, hinge, (-moment) * h.g[i]);
 }
@@ -48,7 +51,7 @@ KERNEL_FN void bending_hysteresis_stiffness(int hinge, const bending_hysteresis_
 {
     int hs = a->size.hinge_stride;
     hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
-    real w = bending_hysteresis_way(hinge, &h, a), r = a->stick_curvature * a->hinge_width[hinge];
+    real w = bending_hysteresis_turn(hinge, &h, a), r = a->stick_curvature * a->hinge_width[hinge];
     real secant = a->scale * a->hinge_hysteresis[hinge] / larger(fabs(w), r), moment = secant * w;
     real along = secant * h.cosine * h.cosine;
     mat3 t[4][4];

@@ -1,7 +1,7 @@
-// Contact of a vertex with the nearest body surface, taken as its tangent plane while a step is solved.
-//     g = n . x - offset  [m]     gap;   s = g / d;   d the gap at which contact sets in, P a pressure, A the vertex
-//     area E = A P d b(s)  [J]         f = -A P b'(s) n  [N]      stiffness A P b''(s)/d n n^T  [N/m]
-// Source: barrier.h for b.
+// Barrier contact of a vertex with the nearest body surface, which is its tangent plane while a step is solved.
+//     g = n . x - offset  [m],    s = g / d
+//     E = A P d b(s)  [J]         f = -A P b'(s) n  [N]      stiffness A P b''(s)/d n n^T  [N/m]
+// g is the gap, d the gap at which contact sets in, P a pressure, A the vertex area. Source: barrier.h for b.
 #pragma once
 #include "../barrier.h"
 #include "../term_args.h"

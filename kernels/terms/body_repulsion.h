@@ -1,8 +1,9 @@
-// Exponential repulsion of a vertex from the nearest body surface, taken as its tangent plane while a step is solved.
-//     g = n . x - offset  [m]     gap;   s = g / d;   d the gap at which contact sets in, P a pressure, A the vertex
-//     area E = A P d Q(s)  [J]         f = A P q(s) n  [N]         stiffness -A P q'(s)/d n n^T  [N/m]
-// For comparison with body_contact, in whose place it stands: its force is bounded, so it keeps nothing out for
-// certain. Source: repulsion.h for q and Q; A P is the source's c_r.
+// Exponential repulsion of a vertex from the nearest body surface, which is its tangent plane while a step is solved.
+//     g = n . x - offset  [m],    s = g / d
+//     E = A P d Q(s)  [J]         f = A P q(s) n  [N]         stiffness -A P q'(s)/d n n^T  [N/m]
+// g is the gap, d the gap at which contact sets in, P a pressure, A the vertex area. The term replaces body_contact and
+// is meant for comparison: its force is bounded, so it cannot guarantee that nothing penetrates.
+// Source: repulsion.h for q and Q; A P is the source's c_r.
 #pragma once
 #include "../repulsion.h"
 #include "../term_args.h"

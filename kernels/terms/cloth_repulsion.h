@@ -1,7 +1,7 @@
 // Exponential repulsion of the cloth from itself, and of its faces and edges from those of bodies, in pairs.
 //     E = A P g Q(d / g)  [J]       f_i = w_i A P q(d / g) n  [N]       K = -A P q'(d / g) / g n n^T  [N/m]
-// Pairs, weights, normals and distances are those of cloth_contact, in whose place it stands for comparison.
-// Source: repulsion.h for q and Q; Fan, Zhou, Wang and Yuen 1998 (A5) let panels repel each other as bodies do.
+// The term replaces cloth_contact and is meant for comparison; pairs, weights, normals and distances are the same.
+// Source: repulsion.h for q and Q; Fan, Zhou, Wang and Yuen 1998 use one law between panels and against bodies.
 #pragma once
 #include "../repulsion.h"
 #include "cloth_contact.h"
@@ -12,7 +12,7 @@
 #define cloth_repulsion_FIELDS(READ, ADD) cloth_contact_FIELDS(READ, ADD)
 TERM_ARGS(cloth_repulsion)
 
-// The stage before each of the term's functions: where the closest points are.
+// The stage that runs before each function of the term: finds the closest points, the normal and the distance.
 KERNEL_FN void repulsion_frame(int pair, const cloth_repulsion_args* a)
 {
     cloth_contact_args places;
@@ -37,7 +37,7 @@ KERNEL_FN real cloth_repulsion_energy(int pair, const cloth_repulsion_args* a)
     return a->pair_area[pair] * a->stiffness * a->pair_gap[pair] * cloth_repulsion_at(pair, a).value;
 }
 
-// How hard the two sides push each other apart [N].
+// Normal force, positive when the sides push each other apart [N].
 KERNEL_FN real cloth_repulsion_push(int pair, const cloth_repulsion_args* a)
 {
     return -a->pair_area[pair] * a->stiffness * cloth_repulsion_at(pair, a).slope;

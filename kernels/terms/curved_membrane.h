@@ -1,8 +1,9 @@
-// Orthotropic membrane with measured stress curves, in place of membrane.h where any fabric has one or a limit:
+// Orthotropic membrane with measured stress curves. It replaces membrane.h in scenes where a fabric has a curve or an
+// over-elongation limit.
 //     s_uu = s_u(e_uu) + kc e_vv,   s_vv = s_v(e_vv) + kc e_uu,   s_uv = s_s(g)       [N/m]
 //     E = A (W_u(e_uu) + W_v(e_vv) + W_s(g) + kc e_uu e_vv),   W the integrals of the curves s_u, s_v, s_s   [J]
-// Source: Volino, Magnenat-Thalmann and Faure 2009, section 4, as restated in D5; curves and over-elongation limits
-// (A3, C5): stress_curve.h. Shear is odd in g; in compression the curves go on with their slopes at zero.
+// Shear is odd in g. In compression the curves continue with their slopes at zero.
+// Source: Volino, Magnenat-Thalmann and Faure 2009, section 4; stress_curve.h for curves and over-elongation limits.
 #pragma once
 #include "../membrane_face.h"
 #include "../stress_curve.h"

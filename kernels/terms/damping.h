@@ -1,6 +1,6 @@
 // Viscous drag on every vertex, proportional to its mass.
 //     R = 1/2 c |v|^2  [W]        f = -c v  [N]        -df/dv = c I,    c = drag coefficient [kg/s]
-// Source: Fan, Zhou, Wang and Yuen 1998 (A7) and the thesis on photographed panels (B14).
+// Source: Fan, Zhou, Wang and Yuen 1998.
 #pragma once
 #include "../term_args.h"
 

@@ -1,10 +1,11 @@
-// Coulomb friction with true sticking: a vertex in contact hangs on an elastic anchor that slips at the limit L = mu N.
+// Coulomb friction with elastic sticking: a vertex in contact is tied to an elastic anchor that slips at L = mu N.
 //     w = (I - n n^T)(x - anchor),  q = |w|,  r the stick distance
-//     q <= r:  E = L q^2 / (2 r),    f = -L w / r         (sticks: returns to its anchor)
+//     q <= r:  E = L q^2 / (2 r),    f = -L w / r         (sticks: elastic return to the anchor)
 //     q >  r:  E = L (q - r / 2),    f = -L w / q         (slides: |f| = mu N)
-// After every step the anchor is drawn along so that q <= r, and L follows the normal force.
-// Source: Coulomb's law (D10); the elastic anchor is that of Cundall and Strack 1979 in a step's incremental form.
-// While a vertex sticks nothing creeps, whatever the step: a friction law on velocities alone would.
+// After every step a sliding vertex drags its anchor so that q <= r, and L is updated from the normal force
+// (stages/settle_friction.h). A sticking vertex does not creep at any step size, as it would under a friction law that
+// depends on velocities alone.
+// Source: Coulomb's law; the elastic anchor is that of Cundall and Strack 1979 in incremental form.
 #pragma once
 #include "../term_args.h"
 
@@ -18,7 +19,8 @@
 // clang-format on
 TERM_ARGS(friction)
 
-KERNEL_FN vec3 friction_way(int vertex, const friction_args* a)
+// The elastic displacement w of the vertex from its anchor, in the tangent plane [m].
+KERNEL_FN vec3 friction_slip(int vertex, const friction_args* a)
 {
     int vs = a->size.vertex_stride;
     vec3 n = load3(a->contact_normal, vs, vertex);
@@ -28,23 +30,23 @@ KERNEL_FN vec3 friction_way(int vertex, const friction_args* a)
 
 KERNEL_FN real friction_energy(int vertex, const friction_args* a)
 {
-    real q = length(friction_way(vertex, a)), r = a->stick_distance, limit = a->scale * a->friction_limit[vertex];
+    real q = length(friction_slip(vertex, a)), r = a->stick_distance, limit = a->scale * a->friction_limit[vertex];
     return q <= r ? limit * q * q / (REAL(2) * r) : limit * (q - REAL(0.5) * r);
 }
 
 KERNEL_FN void friction_force(int vertex, const friction_args* a)
 {
-    vec3 w = friction_way(vertex, a);
+    vec3 w = friction_slip(vertex, a);
     real limit = a->scale * a->friction_limit[vertex];
     add3(a->force, a->size.vertex_stride, vertex, (-limit / larger(length(w), a->stick_distance)) * w);
 }
 
-// Stiffness L / max(q, r) across the normal, less its part along w when sliding in the exact form.
+// The stiffness is L / max(q, r) in the tangent plane, and zero along w when sliding.
 KERNEL_FN void friction_stiffness(int vertex, const friction_args* a)
 {
     int vs = a->size.vertex_stride;
     real limit = a->scale * a->friction_limit[vertex];
-    vec3 n = load3(a->contact_normal, vs, vertex), w = friction_way(vertex, a);
+    vec3 n = load3(a->contact_normal, vs, vertex), w = friction_slip(vertex, a);
     real q = length(w), k = limit / larger(q, a->stick_distance);
     mat3 m = mat3_add_diagonal(outer3(-k, n, n), k * dot(n, n));
     if (q > a->stick_distance) m = mat3_add(m, outer3(-k / (q * q), w, w));

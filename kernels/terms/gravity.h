@@ -1,6 +1,6 @@
 // Gravity: a uniform field acting on lumped masses.
 //     E = -m a . x  [J]        f = m a  [N]        no stiffness
-// Source: Fan, Zhou, Wang and Yuen 1998 (A6), with the mass lumped by area instead of by particle count.
+// Source: Fan, Zhou, Wang and Yuen 1998, with the mass lumped by area instead of by particle count.
 #pragma once
 #include "../term_args.h"
 

@@ -1,7 +1,8 @@
-// Orthotropic membrane with straight stress curves, for scenes in which no fabric has another: membrane_face.h with
+// Orthotropic membrane with linear stress curves, for scenes in which every fabric is linear: membrane_face.h with
 //     s_uu = ku e_uu + kc e_vv,   s_vv = kv e_vv + kc e_uu,   s_uv = ks g       [N/m]
 //     E = A/2 (s_uu e_uu + s_vv e_vv + s_uv g)  [J]
-// Source: D5. Its loop has no branches and vectorises: forces cost a quarter of those of curved_membrane.h.
+// Source: as membrane_face.h. The loop over faces has no branches, so it vectorises: a force costs a quarter of that of
+// curved_membrane.h.
 #pragma once
 #include "../membrane_face.h"
 

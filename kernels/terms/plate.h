@@ -1,13 +1,15 @@
-// Bending of a plate made of hinges that are coupled, so that it shows the fabric's rigidity on any mesh.
-//     phi_h = 2 (sin(theta_h/2) - sin(theta0_h/2))                  (the hinge's turn, theta for small angles)
+// Plate bending by coupled hinges: the coupling makes the effective rigidity equal to the fabric's on any mesh.
+//     phi_h = 2 (sin(theta_h/2) - sin(theta0_h/2))                  (the hinge's turn; theta - theta0 if small)
 //     E = 1/2 sum_hk phi_h G_hk phi_k  [J]                          M_h = sum_k G_hk phi_k  [N m]
 //     f_i = -sum_h M_h cos(theta_h/2) dtheta_h/dx_i  [N]
-// G comes from the rest mesh once (host/solver/state/plate.cpp): a curvature tensor per face from the turns of the
-// hinges around it, with the fabric's rigidities. Source: a curvature tensor per triangle as in Grinspun and others
-// 2006 and Morley 1971, the share of a hinge's turn that belongs to each side being matched to quadratic surfaces. The
-// projected stiffness drops M d2phi/dx2; what is left, J^T G J with the slopes J = dphi/dx, is never negative. It
-// reaches far: 37 blocks a row. The slots take only J^T W J, W diagonal (plate_diagonal); the linear solver adds J^T (G
-// - W) J by hinge turns and moments, from the slopes that the stiffness function leaves behind.
+// G is computed once from the rest mesh and the fabric's rigidities (host/solver/state/plate.cpp): each face has a
+// curvature tensor that is linear in the turns of the hinges around it.
+// Source: a curvature tensor per triangle as in Grinspun and others 2006 and Morley 1971. How a hinge's turn is divided
+// between its two faces is fitted to quadratic surfaces.
+// The projected stiffness drops M d2phi/dx2. The rest, J^T G J with J = dphi/dx, is positive semidefinite but has 37
+// blocks a row. Only J^T W J goes to the stiffness slots, with W diagonal (plate_diagonal). The linear solver adds
+// J^T (G - W) J to its products by way of hinge turns and moments (stages/couple_hinges.h); it reads J from
+// hinge_slope, which the stiffness function fills.
 #pragma once
 #include "../hinge.h"
 
@@ -20,7 +22,7 @@
 // clang-format on
 TERM_ARGS(plate)
 
-// Before anything else: every hinge's turn, which its neighbours need.
+// The stage that runs before each function of the term: computes all turns, since a moment depends on several of them.
 KERNEL_FN void plate_turns(int hinge, const plate_args* a)
 {
     hinge_state h = hinge_at(hinge, a->size, a->pos, a->hinge_vertex);
@@ -68,7 +70,7 @@ KERNEL_FN void plate_stiffness(int hinge, const plate_args* a)
             add_block(a->hinge_stiffness, hs, hinge, block_index(4, i, j), k);
         }
     for (int i = 0; i < 4; ++i) {
-        // A held vertex turns no hinge.
+        // A pinned vertex does not move in a linear solve, so it turns no hinge.
         int held = a->inv_mass[a->hinge_vertex[i * hs + hinge]] == REAL(0);
         vec3 slope = (held ? REAL(0) : sqrt(a->scale) * h.cosine) * h.g[i];
         GLOBAL block_real* to = a->hinge_slope + 12 * hinge + 3 * i;

@@ -1,8 +1,8 @@
 // Seam force: pulls the two vertices of a stitch together; d = x1 - x0, l = |d|.
-//     l <= F/k:  E = k/2 l^2,          f0 =  k d                    (A4 with stiffness k)
-//     l >  F/k:  E = F (l - F/(2k)),   f0 =  F d / l                (a constant pull while the panels are far apart)
-// Source: Fan, Zhou, Wang and Yuen 1998 (A4); the limit F is added so that panels that start far apart are drawn in
-// at a speed that does not depend on their distance.
+//     l <= F/k:  E = k/2 l^2,          f0 =  k d                    (a linear spring)
+//     l >  F/k:  E = F (l - F/(2k)),   f0 =  F d / l                (a constant force while the panels are far apart)
+// Source: Fan, Zhou, Wang and Yuen 1998 for the spring. The limit F is added so that panels that start far apart are
+// drawn in at a speed that does not depend on their distance.
 #pragma once
 #include "../term_args.h"
 

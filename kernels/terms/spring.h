@@ -1,9 +1,10 @@
-// Springs between two vertices, structural, shear and bend, each with an over-elongation limit (A1, A2, B9, C5, E1).
+// Structural, shear and bend springs between two vertices, each with an over-elongation limit.
 //     l = |x1 - x0|,   T = k (l - l0) up to the length L, beyond it k (L - l0) + k_L (l - L)      [N]
 //     E = integral of T dl,   f_0 = T n = -f_1,   n = (x1 - x0) / l
 //     d2E/dx2: blocks +-(k n n^T + T/l (I - n n^T))
-// Source: Hooke's law as restated in A2; each range of a piecewise linear law has its own constant (A3, C5).
-// In compression (T < 0) the second part is negative: the projected stiffness drops it.
+// Source: Fan, Zhou, Wang and Yuen 1998, also for the piecewise linear law with one constant per range; the limit is
+// that of the cuboid mass-spring model of weft-knitted fabric by Sha, Jiang, Ma and Li.
+// In compression (T < 0) the part T/l (I - n n^T) is negative, so the projected stiffness drops it.
 #pragma once
 #include "../term_args.h"
 
@@ -31,7 +32,7 @@ KERNEL_FN spring_state spring_at(int spring, const spring_args* a)
     vec3 d = load3(a->pos, vs, a->spring_vertex[ss + spring]) - load3(a->pos, vs, a->spring_vertex[spring]);
     real scale = a->spring_bends[spring] ? a->bend_scale : a->scale;
     spring_state s;
-    s.length = larger(length(d), REAL(1e-12));  // two vertices in one place push in no direction
+    s.length = larger(length(d), REAL(1e-12));  // coincident vertices have no direction: n = 0, and so no force
     s.n = (REAL(1) / s.length) * d;
     s.extension = s.length - a->spring_length[spring];
     s.over = larger(s.length - a->spring_limit[spring], REAL(0));
