@@ -3,6 +3,7 @@
 
 namespace selvage {
 
+/// Adds `selvage bench SUITE` to the program's commands.
 AddCommand add_bench_command;
 
 }  // namespace selvage

@@ -13,7 +13,7 @@ namespace {
 constexpr int margin_left = 84, margin_top = 44, margin_bottom = 62, legend_width = 190;
 const cv::Scalar ink(40, 40, 40), faint(225, 225, 225), fainter(242, 242, 242), white(255, 255, 255);
 
-// Okabe and Ito 2008: told apart by colour-blind readers too.
+// Okabe and Ito 2008; colour-blind readers can tell these colours apart as well.
 const std::array<cv::Scalar, 8> palette = {cv::Scalar(0, 114, 178),   cv::Scalar(213, 94, 0),  cv::Scalar(0, 158, 115),
                                            cv::Scalar(204, 121, 167), cv::Scalar(20, 20, 20),  cv::Scalar(230, 159, 0),
                                            cv::Scalar(86, 180, 233),  cv::Scalar(150, 120, 60)};
@@ -48,7 +48,7 @@ void write_centred(cv::Mat& on, const std::string& text, cv::Point middle, doubl
     write_text(on, text, {middle.x - size.width / 2, middle.y + size.height / 2}, scale);
 }
 
-// Text that runs upwards, its middle at the given point.
+// Writes text that runs upwards, with its middle at the given point.
 void write_upright(cv::Mat& on, const std::string& text, cv::Point middle, double scale)
 {
     const cv::Size size = text_size(text, scale);
@@ -60,9 +60,11 @@ void write_upright(cv::Mat& on, const std::string& text, cv::Point middle, doubl
     turned(cv::Rect(0, 0, place.width, place.height)).copyTo(on(place));
 }
 
-constexpr double two_labels = 0.72;  // [decades]: as much always holds two of 1, 2, 5 times a power of ten
+// The shortest span of an axis [decades]. Labels stand at 1, 2 and 5 times a power of ten, so every second one follows
+// within log10(5) = 0.70 decades, and a longer span always shows at least two labels.
+constexpr double two_labels = 0.72;
 
-// One logarithmic axis: from whole decades to pixels.
+// One logarithmic axis, which maps a value to a pixel.
 struct Axis {
     double low = 0, high = 1;  // log10
     int from = 0, to = 1;      // pixels
@@ -121,7 +123,7 @@ void draw_grid(cv::Mat& on, const Axis& x, const Axis& y)
                 const bool upright = axis == &x;
                 cv::line(on, upright ? cv::Point(p, y.from) : cv::Point(x.from, p),
                          upright ? cv::Point(p, y.to) : cv::Point(x.to, p), digit == 1 ? faint : fainter);
-                // Axes shorter than a decade and a half need more than the powers of ten.
+                // Axes shorter than a decade and a half also get labels at 2 and 5 times a power of ten.
                 if (digit != 1 && !(axis->high - axis->low < 1.5 && (digit == 2 || digit == 5))) continue;
                 const std::string label =
                     value >= 0.01 && value < 1000 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value);

@@ -15,23 +15,24 @@ struct ChartSeries {
 /// A chart with two logarithmic axes and a legend at its right.
 struct LogChart {
     std::string title, x_label, y_label;
-    std::vector<ChartSeries> series;  ///< Those of one name share colour and marker in every chart.
+    std::vector<ChartSeries> series;  ///< Series of the same name have the same colour and marker in every chart.
     double guide_y = 0;               ///< Value of a dashed horizontal line; 0: none.
     std::string guide_label;
 };
 
-/// Draws a chart; colours and markers follow the order of `names`, so that several charts can be read together.
-/// @param names  of all series that may appear
+/// Draws a chart. Colours and markers are assigned in the order of `names`, so they agree among several charts.
+/// @param names  the names of all series that can appear in any of the charts
+/// @param width, height  of the picture [pixels]
 Image draw_log_chart(const LogChart& chart, const std::vector<std::string>& names, int width, int height);
 
 /// A table of coloured cells.
 struct CellMap {
     std::string title, column_label, row_label;
     std::vector<std::string> columns, rows;
-    std::vector<int> kind;  ///< Per row and column: index into the kinds.
+    std::vector<int> kind;  ///< Row by row, per cell: index into the kinds.
 };
 
-/// What a kind of cells means and its colour.
+/// The meaning of one kind of cell and its colour.
 struct CellKind {
     std::string name;
     Rgb colour;

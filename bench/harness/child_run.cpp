@@ -42,7 +42,8 @@ void read_run(const std::string& path, ChildRun& run)
     for (std::int64_t launches : file.read_integers("/selvage/profile/launches")) run.launches += launches;
 }
 
-// Both streams go to one file: what the run prints is no part of what is measured.
+// Starts a process whose standard output and standard error both go to one file, so that the terminal's speed does not
+// enter the measurement.
 pid_t start(std::vector<std::string> arguments, const std::string& log)
 {
     std::vector<char*> words;

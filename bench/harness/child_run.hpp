@@ -6,7 +6,7 @@
 
 namespace selvage {
 
-/// A folder that goes away with everything in it.
+/// A temporary folder; the destructor removes it with everything in it.
 class WorkFolder {
 public:
     WorkFolder();
@@ -20,25 +20,25 @@ private:
     std::string path_;
 };
 
-/// One run of `selvage drape` as a process of its own, so that its memory and start-up cost are its own too.
+/// One run of `selvage drape` in a process of its own, so that its memory and its start-up cost can be measured.
 struct ChildRun {
     int exit_code = -1;
     double wall_s = 0, cpu_s = 0;     ///< Of the whole process.
     double peak_memory_bytes = 0;     ///< Largest resident size.
     nlohmann::json summary;           ///< summary.json; null if the run left none.
-    int contacts = 0;                 ///< At the end, of run.h5.
-    std::vector<std::string> phases;  ///< Of a profiled run: every phase by its path,
-    std::vector<double> self_s;       ///< the time of each without those within it,
-    std::int64_t launches = 0;        ///< and its launches.
-    std::string errors;               ///< What it printed on stderr.
+    int contacts = 0;                 ///< Vertices in contact in the last frame of run.h5.
+    std::vector<std::string> phases;  ///< Path of every phase; empty unless the run was profiled.
+    std::vector<double> self_s;       ///< Time of each phase without the phases within it.
+    std::int64_t launches = 0;        ///< Kernel launches of all phases; 0 unless the run was profiled.
+    std::string errors;               ///< What the run printed on stderr.
 
     bool finished() const { return exit_code == 0; }
 };
 
-/// The file of the program that is running now.
+/// Returns the path of the program that is running now.
 std::string own_program();
 
-/// Runs it to its end. What it wrote is removed.
+/// Runs `program drape` to its end and removes its output folder.
 /// @param program    file to run, such as own_program()
 /// @param arguments  after `drape`; an output folder and --quiet are added
 /// @throws std::runtime_error if the program cannot be started

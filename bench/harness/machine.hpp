@@ -3,12 +3,12 @@
 
 namespace selvage {
 
-/// Adds what a measurement depends on: `version`, `compiler`, `flags`, `build_type`, `instruction_set`, `cpu_name`,
-/// `memory_bytes`.
+/// Adds the properties of the build and the machine that a measurement depends on: `version`, `compiler`, `flags`,
+/// `build_type`, `instruction_set`, `cpu_name`, `memory_bytes`.
 void describe_machine(nlohmann::ordered_json& context);
 
-/// The context of a suite that does not run on Google Benchmark's loop, in its schema: `date`, `num_cpus` and the
-/// above.
+/// Returns the `context` object of Google Benchmark's schema for a suite that does not use its loop: `date`,
+/// `num_cpus`, `threads` and everything that describe_machine adds.
 nlohmann::ordered_json bench_context(int threads);
 
 }  // namespace selvage

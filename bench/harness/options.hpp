@@ -9,13 +9,15 @@
 namespace selvage {
 
 /// Reads `--name value` and `--name=value`.
-/// @param suite     for messages, such as "bench kernels"
-/// @param expected  what may follow, for messages
+/// @param suite     for error messages, such as "bench kernels"
+/// @param names     the options that are known, such as "--vertices"
+/// @param expected  for error messages: the options with their values
+/// @return the text of the value of each option that was given
 /// @throws InputError for an unknown name or a missing value
 std::map<std::string, std::string> read_options(const std::string& suite, const std::vector<std::string>& options,
                                                 const std::vector<std::string>& names, const std::string& expected);
 
-/// Reads the value of an option.
+/// Reads the value of an option as a number in [low, high].
 /// @throws InputError naming the option, the value and what was expected
 template <class Number>
 Number read_number(const std::string& name, const std::string& text, Number low, Number high,

@@ -23,7 +23,7 @@ void extend_context(const BenchContext& context, Json& to)
     for (const auto& [name, size] : context.sizes) to[name] = size;
 }
 
-// Google Benchmark appends its settings to a name: they say nothing about what was measured.
+// Google Benchmark appends its settings to each name. They are removed because they do not tell what was measured.
 void shorten_names(Json& benchmarks)
 {
     for (Json& run : benchmarks)

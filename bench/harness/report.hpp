@@ -6,7 +6,7 @@
 
 namespace selvage {
 
-/// What the results of a run have in common, beside the machine and the build.
+/// The conditions that all results of a run share, apart from the machine and the build.
 struct BenchContext {
     int threads = 1;
     double copy_bandwidth = 0;                       ///< Of this machine with these threads [bytes/s].

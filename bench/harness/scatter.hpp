@@ -3,7 +3,7 @@
 
 namespace selvage {
 
-/// A number in [-1, 1] that depends on the index only (Steele, Lea and Flood 2014, SplitMix64).
+/// Returns a pseudo-random number in [-1, 1) that depends on the index only (Steele, Lea and Flood 2014, SplitMix64).
 inline double scatter(std::uint64_t index)
 {
     std::uint64_t bits = (index + 1) * 0x9e3779b97f4a7c15ull;

@@ -94,12 +94,12 @@ RunResult SceneRunner::run(const RunSetting& setting)
 double position_error(const std::vector<Vec3>& positions, const std::vector<Vec3>& reference,
                       const std::vector<Vec3>& start)
 {
-    double error = 0, way = 0;
+    double error = 0, displacement = 0;  // sums of squares [m^2]
     for (std::size_t v = 0; v < reference.size(); ++v) {
         error += (positions[v] - reference[v]).squaredNorm();
-        way += (reference[v] - start[v]).squaredNorm();
+        displacement += (reference[v] - start[v]).squaredNorm();
     }
-    return std::isfinite(error) ? std::sqrt(error / way) : std::numeric_limits<double>::infinity();
+    return std::isfinite(error) ? std::sqrt(error / displacement) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace selvage

@@ -5,10 +5,10 @@
 
 namespace selvage {
 
-/// Measures how long it takes to find all pairs of primitives of a sheet that are within the gap of contact: by
-/// ClothTree, and by rtcCollide over the same faces as user geometry. Both must find the same pairs; otherwise the
-/// suite fails. A time step looks several times (8 to 12 times in the stress scenes), and candidates that are complete
-/// still serve on. Options: --sides N[,N...] (vertices a side), --repeats N, --looks N (of a time step).
+/// Measures the time to find all pairs of primitives of a sheet whose distance is below the contact gap: by ClothTree,
+/// and by rtcCollide over the same faces as user geometry. The suite fails unless both find the same pairs. A time step
+/// queries the broad phase several times (8 to 12 times in the stress scenes); ClothTree reuses its candidates while
+/// they are still complete. Options: --sides N[,N...] (vertices per side), --repeats N, --looks N (queries per step).
 /// @throws InputError for a bad option
 void bench_broad_phase(bool json, const std::vector<std::string>& options, std::ostream& out);
 

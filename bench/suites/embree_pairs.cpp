@@ -31,7 +31,8 @@ struct CornerBox {
     }
 };
 
-// Each corner and each edge is one face's, so that each pair of primitives comes once: bits 0-2 corners, 3-5 edges.
+// Assigns each vertex and each edge to one of its faces, so that each pair of primitives is found once.
+// Returns per face: bits 0-2 for the corners that it owns, bits 3-5 for the edges.
 std::vector<std::uint8_t> owned_parts(const std::vector<Face>& faces, std::size_t particles)
 {
     std::vector<std::uint8_t> owned(faces.size());
@@ -101,7 +102,7 @@ namespace {
 
 using FacePairs = tbb::enumerable_thread_specific<std::vector<std::pair<int, int>>>;
 
-// Every pair comes both ways round.
+// Collects colliding faces. rtcCollide reports every pair in both orders, so one of them is dropped.
 void collect(void* to, RTCCollision* collisions, unsigned count)
 {
     std::vector<std::pair<int, int>>& pairs = static_cast<FacePairs*>(to)->local();
@@ -123,7 +124,7 @@ EmbreePairs::EmbreePairs(const EmbreeDevice& device, TreeSurface surface, Update
     i.face_box.resize(i.surface.faces.size());
     i.device = static_cast<RTCDevice>(device.handle());
     i.scene = rtcNewScene(i.device);
-    rtcSetSceneFlags(i.scene, RTC_SCENE_FLAG_DYNAMIC);  // only such hierarchies are refitted
+    rtcSetSceneFlags(i.scene, RTC_SCENE_FLAG_DYNAMIC);  // Embree refits only the hierarchies of dynamic scenes
     rtcSetSceneBuildQuality(i.scene, RTC_BUILD_QUALITY_LOW);
     i.geometry = rtcNewGeometry(i.device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryBuildQuality(i.geometry, update == Update::refit ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);

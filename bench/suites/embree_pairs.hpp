@@ -6,11 +6,12 @@
 
 namespace selvage {
 
-/// The faces of a cloth as user geometry of the ray tracing library, met with themselves by its rtcCollide: the broad
-/// phase that ClothTree is measured against. It knows nothing of flat parts and keeps nothing from look to look.
+/// A broad phase by Embree's rtcCollide, which collides the faces of a cloth, as user geometry, with themselves.
+/// ClothTree is measured against it. Unlike ClothTree it does not skip flat parts of the cloth, and it does not reuse
+/// the candidates of the previous query.
 class EmbreePairs {
 public:
-    enum class Update { refit, rebuild };  ///< Boxes are fitted in the tree that is there, or a new one is built.
+    enum class Update { refit, rebuild };  ///< Refit the boxes of the existing tree, or build a new tree.
 
     /// @param surface  without bodies
     EmbreePairs(const EmbreeDevice& device, TreeSurface surface, Update update);
@@ -18,7 +19,7 @@ public:
     EmbreePairs(const EmbreePairs&) = delete;
     EmbreePairs& operator=(const EmbreePairs&) = delete;
 
-    /// Takes over positions and brings the hierarchy up to date; the first time it is built.
+    /// Copies positions and updates the hierarchy; the first call builds it.
     /// @param pos    planes, component c of particle v at [c * stride + v] [m]
     /// @param reach  distance of primitives that is of interest [m]
     void move(const double* pos, int stride, double reach);

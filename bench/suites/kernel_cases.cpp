@@ -70,7 +70,7 @@ KernelCase operation_case(KernelCloth& cloth, std::string name, LinearSolver& so
                           std::size_t bytes)
 {
     KernelCase kernel = vertex_case(cloth, std::move(name), bytes, [&solver, operation] { solver.run(operation); });
-    kernel.prepare = [&cloth, &solver] {  // a short solve fills the solver's vectors
+    kernel.prepare = [&cloth, &solver] {  // a short solve gives the solver's vectors realistic values
         evaluate_forces(cloth);
         evaluate_stiffness(cloth);
         std::vector<real> solution(cloth.state.force.size());
@@ -99,7 +99,7 @@ void add_linear_solver(KernelCloth& cloth, std::vector<KernelCase>& cases)
     cases.push_back(operation_case(cloth, "axpy", one_level, update, update_bytes(pattern)));
 }
 
-/// One iteration of an implicit step, with the query and the gradient that then tell whether it was enough.
+/// One Newton iteration of an implicit step, including the body query and the gradient that test for convergence.
 struct NewtonIteration {
     explicit NewtonIteration(KernelCloth& cloth)
         : newton(cloth.state, cloth.params, *cloth.multigrid, cloth.contact.get(), nullptr, profile)
@@ -117,8 +117,8 @@ struct NewtonIteration {
     Newton newton;
 };
 
-// The sum over the stages that an iteration runs, each as often as it does; vector updates outside the linear solve,
-// and the coarse matrices that multigrid makes, are left out.
+// The bytes that one Newton iteration must move: the sum over its stages, each times its number of calls. Vector
+// updates outside the linear solve and the assembly of multigrid's coarse matrices are not counted.
 std::size_t newton_bytes(const KernelCloth& cloth, const NewtonReport& report, const Profile& profile)
 {
     const auto calls = [&profile](std::string_view name) {
@@ -127,7 +127,7 @@ std::size_t newton_bytes(const KernelCloth& cloth, const NewtonReport& report, c
         return std::size_t(0);
     };
     const State& state = cloth.state;
-    // Values and forces of conservative terms are recorded under one name.
+    // The profile records energy and force evaluations of a term under one name, so their counts are separated here.
     const std::size_t gradients = calls("gather_forces"), objectives = calls("gravity") - gradients;
     std::size_t total = calls("body_query") * body_query_bytes(state) + settle_friction_bytes(state) +
                         settle_hysteresis_bytes(state) + gradients * (clear_forces_bytes(state) + gather_bytes(state)) +

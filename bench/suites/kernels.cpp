@@ -99,7 +99,7 @@ void bench_kernels(bool json, const std::vector<std::string>& arguments, std::os
     const KernelOptions options = read_kernel_options(arguments);
     const int threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-    // An arena of its own lets more threads run than the machine has cores.
+    // A separate task arena can have more threads than the machine has cores.
     tbb::task_arena(threads).execute([&] {
         KernelCloth cloth(options.vertices);
         std::vector<KernelCase> cases = kernel_cases(cloth);

@@ -21,7 +21,7 @@ RunSetting reference_setting(const std::string& integrator, double step)
     return setting;
 }
 
-// Several runs of a scene at once, a thread for each.
+// Runs a scene with several settings at the same time, one thread for each.
 std::vector<RunResult> run_all(const PrecisionScene& scene, const std::vector<RunSetting>& settings)
 {
     std::vector<RunResult> results(settings.size());
@@ -37,7 +37,7 @@ std::vector<RunResult> run_all(const PrecisionScene& scene, const std::vector<Ru
     return results;
 }
 
-// Motions: classic Runge-Kutta steps and Verlet steps a few times below the stability limit.
+// The reference of a motion: classic Runge-Kutta and velocity Verlet with steps a few times below the stability limit.
 void find_motion(SceneRunner& runner, const PrecisionScene& scene, PrecisionReference& reference)
 {
     Phase phase = runner.make_phase(false);
@@ -56,7 +56,7 @@ void find_motion(SceneRunner& runner, const PrecisionScene& scene, PrecisionRefe
     reference.difference = position_error(reference.other, reference.positions, start);
 }
 
-// Rest: two ways there, both far below the tolerances that are measured.
+// The reference of a shape at rest: implicit Euler and the static solver, with tolerances far below those measured.
 void find_rest(SceneRunner& runner, const PrecisionScene& scene, PrecisionReference& reference)
 {
     reference.integrator = "implicit_euler";
@@ -107,7 +107,7 @@ void add_motions(const IntegratorInfo& info, double until, double limit, int mos
 
 std::vector<PrecisionScene> precision_scenes(const std::string& name)
 {
-    // None of these cloths meets itself.
+    // In none of these scenes does the cloth touch itself.
     std::vector<PrecisionScene> all = {
         {"swing",
          "Sheet of 1 m swinging from its top edge, 0.4 s",
@@ -123,7 +123,7 @@ std::vector<PrecisionScene> precision_scenes(const std::string& name)
          {"sheet.resolution=21", "solver.until=0.2"},
          false,
          5e-6,
-         1024},  // each rebound must be followed
+         1024},  // implicit schemes need many steps to resolve each rebound from the sphere
         {"rest_cantilever",
          "Strip of cotton bending under its weight, at rest",
          "builtin:cantilever",
@@ -154,7 +154,8 @@ std::vector<RunSetting> precision_settings(const PrecisionScene& scene, double u
     const int most_steps = scene.most_steps > 0 ? scene.most_steps : quick ? 64 : 256;
     for (const IntegratorInfo& info : integrators()) {
         if (!scene.at_rest && info.order > 0) add_motions(info, until, limit, most_steps, quick, settings);
-        // An explicit way to rest takes a step per stability limit for many seconds: none is competitive.
+        // Explicit schemes are left out: to come to rest they need steps at the stability limit for many simulated
+        // seconds, which is never competitive.
         for (double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
             if (!scene.at_rest || info.is_explicit) continue;
             for (double step : {0.02, 0.05}) {

@@ -7,20 +7,21 @@
 
 namespace selvage {
 
-/// Where an integrator does best: run time and error of those of its points that no other of its points beats in both.
+/// The Pareto front of one integrator: run time and error of its points that no other of its points beats in both.
 struct PrecisionFront {
     std::string integrator;
-    std::vector<double> seconds, error;  ///< Rising CPU time [s], falling error [1].
+    std::vector<double> seconds, error;  ///< CPU time [s], increasing, and error [1], decreasing.
 };
 
-/// The fronts of one scene, in the order of integrators(); without those that never finished.
+/// Returns the fronts of one scene in the order of integrators(), without integrators that finished no run.
 std::vector<PrecisionFront> fronts(const std::vector<PrecisionPoint>& points, const std::string& scene);
 
-/// The time that an error takes, between two points on a straight line through their logarithms [s]; nothing if no
-/// point is as accurate.
+/// Returns the CPU time that an integrator needs for an error [s], by linear interpolation of the logarithms between
+/// two points; nothing if no point is as accurate.
 std::optional<double> time_for_error(const PrecisionFront& front, double error);
 
-/// One sentence: which integrator is the fastest at 10, 1 and 0.1 % error, and what the default takes at 1 %.
+/// Says in one sentence which integrator is the fastest at 10, 1 and 0.1 % error, and what the default needs for 1 %.
+/// @param standard  name of the default integrator
 std::string verdict_sentence(const std::vector<PrecisionFront>& fronts, const std::string& scene,
                              const std::string& standard);
 

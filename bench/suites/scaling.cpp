@@ -21,11 +21,12 @@ using Json = nlohmann::ordered_json;
 
 struct ScalingScene {
     std::string name, builtin, until;
-    /// The override that gives about so many vertices.
+    /// Returns the scene override that gives approximately this number of vertices.
     std::string (*resolution)(int vertices);
 };
 
-// Two panels of 1 cm edges hold about 12 000 vertices; those of a mesh go with the inverse square of its edge length.
+// The t-shirt has 12 168 vertices at an edge length of 1 cm, and the number of vertices is inversely proportional to
+// the square of the edge length.
 std::string garment_resolution(int vertices)
 {
     return fmt::format("garment.resolution={:.6g}", 0.01 * std::sqrt(12168.0 / vertices));
@@ -36,7 +37,7 @@ std::string sheet_resolution(int vertices)
     return fmt::format("sheet.resolution={}", std::lround(std::sqrt(double(vertices))));
 }
 
-// Eight layers, as of a cloth that has been folded three times.
+// The scene has eight layers, like a cloth that has been folded three times.
 std::string layer_resolution(int vertices) { return sheet_resolution(vertices / 8); }
 
 const std::vector<ScalingScene>& scaling_scenes()
@@ -65,10 +66,10 @@ struct ScalingPoint {
     }
     double vertices() const { return number("vertices"); }
     double step_s() const { return number("steps") > 0 ? number("wall_s") / number("steps") : 0; }
-    double contact_share() const;  ///< Of the time of all phases [1].
+    double contact_share() const;  ///< Share of the time of all phases [1].
 };
 
-// What finds contacts and clears ways, and the terms of contact and friction.
+// Contact is the broad phase, the CCD step filter, body queries and the terms of contact and friction.
 double ScalingPoint::contact_share() const
 {
     double all = 0, contact = 0;
@@ -83,7 +84,7 @@ double ScalingPoint::contact_share() const
     return all > 0 ? contact / all : 0;
 }
 
-// What is plotted and fitted.
+// A quantity that is plotted and whose growth exponent is fitted.
 struct Quantity {
     const char *name, *label;
     double (*of)(const ScalingPoint&);
@@ -113,7 +114,7 @@ std::vector<std::string> series_names(const std::vector<ScalingPoint>& points)
     return names;
 }
 
-// Of the runs that came to their end; zeros have no logarithm.
+// One series of the runs that finished. Zeros are left out, since they have no logarithm.
 ChartSeries series_of(const std::vector<ScalingPoint>& points, const std::string& name, const Quantity& quantity)
 {
     ChartSeries series{name, {}, {}};
@@ -298,11 +299,11 @@ void bench_scaling(bool json, const std::vector<std::string>& arguments, std::os
     std::vector<ScalingPoint> points;
     for (const ScalingScene& scene : scaling_scenes()) {
         if (!options.scene.empty() && scene.name != options.scene) continue;
-        // Four times as many vertices each time: half the edge length.
+        // Each size has four times as many vertices as the one before, that is, half the edge length.
         for (double vertices = options.min_vertices; vertices <= 1.05 * options.max_vertices; vertices *= 4)
             for (int threads : options.threads) {
                 points.push_back(measure(options, scene, int(vertices), threads));
-                // Whoever stops a long run keeps what is done.
+                // The files are rewritten after each run, so that stopping the suite keeps the runs that are done.
                 write_file_atomically(options.output + "/scaling.csv", csv_text(points));
                 write_file_atomically(options.output + "/scaling.json", json_report(points).dump(2) + "\n");
                 if (points.back().run.finished()) write_png(options.output + "/scaling.png", diagram(points));

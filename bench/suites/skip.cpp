@@ -27,7 +27,8 @@ struct SkipOptions {
 
 struct SkipResult {
     SkipCase of;
-    double wall_s = std::numeric_limits<double>::infinity(), cpu_s = wall_s, peak_memory_bytes = wall_s;  // the least
+    // The smallest values of all repeats.
+    double wall_s = std::numeric_limits<double>::infinity(), cpu_s = wall_s, peak_memory_bytes = wall_s;
     double linear_iterations = 0;
     std::int64_t launches = 0;
     bool in_use = false, embree = false, opencv = false;
@@ -50,7 +51,8 @@ SkipOptions read_skip_options(const std::vector<std::string>& arguments)
     return options;
 }
 
-// What concludes every run, such as its last frame, is no part of a feature; the picture alone is drawn then.
+// Whether a profiled run has a phase. Phases at the end of a run, such as writing the last frame, are ignored because
+// every run has them. The exception is the picture, which is only drawn at the end.
 bool has_phase(const ChildRun& run, const std::string& name)
 {
     return std::any_of(run.phases.begin(), run.phases.end(), [&](const std::string& path) {
@@ -64,8 +66,9 @@ void require_finished(const ChildRun& run, const SkipCase& of)
     if (!run.finished()) throw std::runtime_error("bench skip: " + of.feature + " " + of.state + ": " + run.errors);
 }
 
-// What is launched and initialised shows in a profile; what it costs is measured without one.
-SkipResult look_at(const SkipCase& of, const std::string& program)
+// Runs a case with a profile, which shows what is launched and initialised. Its cost is measured without a profile, by
+// time_once().
+SkipResult profile_once(const SkipCase& of, const std::string& program)
 {
     SkipResult result;
     result.of = of;
@@ -88,7 +91,7 @@ void time_once(SkipResult& result, const std::string& program)
     result.peak_memory_bytes = std::min(result.peak_memory_bytes, run.peak_memory_bytes);
 }
 
-// The same feature when it is absent.
+// Returns the result of the same feature when it is absent, which is the first one of the feature.
 const SkipResult& absent_of(const std::vector<SkipResult>& results, const SkipResult& result)
 {
     return *std::find_if(results.begin(), results.end(),
@@ -101,7 +104,8 @@ std::vector<SkipResult> measure(const SkipOptions& options, const std::string& f
     std::vector<std::string> names;
     for (const SkipCase& of : skip_cases(options.resolution, options.until, folder)) {
         names.push_back(of.feature);
-        if (options.feature.empty() || of.feature == options.feature) results.push_back(look_at(of, options.program));
+        if (options.feature.empty() || of.feature == options.feature)
+            results.push_back(profile_once(of, options.program));
     }
     if (results.empty())
         throw InputError({"", 0, 0, "--feature"}, "`" + options.feature + "`", "a feature that this version has",

@@ -14,8 +14,8 @@ namespace {
 /// The parts of a scene that features change.
 struct SceneParts {
     std::string fabric, bodies, tables, output, solver, contact = "self = false", weft = "stretch_weft = 1000";
-    double damping = 0;      // without it a fabric has some
-    bool in_places = false;  // most of the cloth lies still
+    double damping = 0;      // [1/s]; always written, because the default of a fabric is not zero
+    bool in_places = false;  // take the scene in which most of the cloth is at rest
 };
 
 std::string scene_text(const SceneParts& parts, int resolution, double until)
@@ -53,8 +53,8 @@ picture_width = 800
                        until, parts.solver, parts.output);
 }
 
-// A small sheet that falls on a ball beside a large one that lies on the floor, to equilibrium. With one integrator for
-// all of the way, so that with and without sleep the same is done.
+// A scene in which most of the cloth is at rest: a small sheet falls on a ball beside a large sheet that lies on the
+// floor, until equilibrium. The integrator is fixed, so that runs with and without sleep take the same steps.
 std::string resting_scene(const SceneParts& parts, int resolution)
 {
     return fmt::format(R"([[sheet]]
@@ -88,7 +88,7 @@ integrator = "implicit_euler"
 
 constexpr const char* quiet_output = "picture = false\nframes = false\n";
 
-// An octahedron of radius 0.1 m: a body that only the ray tracing library can answer for.
+// Writes an octahedron of radius 0.1 m, a body whose distance queries need the ray tracing library.
 std::string write_octahedron(const std::string& folder)
 {
     const std::vector<Vec3> vertices = {{0.1, 0, 0},  {-0.1, 0, 0}, {0, 0.1, 0},
@@ -101,7 +101,7 @@ std::string write_octahedron(const std::string& folder)
     return path;
 }
 
-// The sheet swings down around y = 0.25 m: a body under its middle is met, one 50 m below is not.
+// A body under the sheet, which swings down from its edge at y = 0.25 m. A near body is hit; one 50 m below is not.
 std::string body(const std::string& shape, bool near, double friction)
 {
     return fmt::format("[[body]]\n{}\ncenter = [0, 0, {}]\nfriction = {}\n", shape, near ? 0.85 : -50.0, friction);
@@ -112,7 +112,7 @@ using Change = std::function<void(SceneParts&)>;
 struct Feature {
     std::string name;
     Change absent, idle, active;  // idle and active may be empty
-    std::string trace;            // what a profile shows, before the run is concluded, if the feature is in use
+    std::string trace;            // the phase that a profile has, before the end of the run, if the feature is in use
 };
 
 std::vector<Feature> features(const std::string& folder)

@@ -11,10 +11,12 @@ struct SkipCase {
     std::string trace;           ///< Phase that a profile shows only if the feature is in use.
 };
 
-/// All cases; the first of each feature is the one without it. Idle means: declared, with nothing to do.
-/// The sheet hangs without folds, so that contact with itself is idle at most. Sleep is shown by a scene that mostly
-/// rests.
-/// @param resolution  vertices a side   @param until  simulated time [s]   @param folder  where scenes are written
+/// Returns all cases; the first case of each feature is the one in which it is absent. A feature is idle if it is
+/// declared but has nothing to do. The sheet hangs without folds, so its contact with itself is idle at most. Sleep has
+/// a scene of its own, in which most of the cloth is at rest.
+/// @param resolution  vertices per side
+/// @param until       simulated time [s]
+/// @param folder      where the scenes are written
 std::vector<SkipCase> skip_cases(int resolution, double until, const std::string& folder);
 
 }  // namespace selvage

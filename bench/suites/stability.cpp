@@ -44,10 +44,11 @@ const std::vector<CellKind>& kinds()
 
 using Keep = std::function<void(const std::vector<StabilityResult>&)>;
 
+// The files are rewritten after this number of cells, so that stopping the suite keeps the cells that are done. Chosen
+// by hand; not measured.
 constexpr std::size_t cells_between_files = 250;
 
-// Small sheets leave threads idle: every thread has cells of its own instead. Whoever stops a long run keeps the cells
-// that are done.
+// Runs all cells, one per thread at a time, because a small sheet cannot keep several threads busy.
 std::vector<StabilityResult> run_cells(const std::vector<StabilityCell>& cells, const Keep& keep)
 {
     std::vector<std::optional<StabilityResult>> done(cells.size());
@@ -136,13 +137,13 @@ Json json_report(const Survey& survey)
     return report;
 }
 
-// Rows of one map: everything but the step, at one resolution.
+// The row label of a cell within one map: everything but the step and the resolution.
 std::string row_of(const StabilityCell& cell)
 {
     return fmt::format("x{:g} {} {}", cell.stiffness, name_of(cell.start), cell.damping > 0 ? "d" : "");
 }
 
-// 3e-4 instead of 0.0003 or 3e-04.
+// Writes 3e-4 instead of 0.0003 or 3e-04.
 std::string step_label(double step)
 {
     const int power = int(std::floor(std::log10(step) + 1e-9));

@@ -12,9 +12,15 @@
 namespace selvage {
 namespace {
 
-constexpr double patience = 20, hang = 60;  // for a cell, and for one step [s]
-constexpr double hurled_speed = 20;         // [m/s]
-constexpr double energy_slack = 1.5;        // symplectic schemes wave by a fifth near their limit; bursts have no bound
+// The limits by which a cell is judged, and its start. All were chosen by hand unless a reason is given.
+struct StabilityTuning {
+    static constexpr double longest_cell = 20;  // CPU time after which a cell is stopped [s]
+    static constexpr double longest_step = 60;  // CPU time of one step above which it counts as hung [s]
+    static constexpr double hurled_speed = 20;  // downward speed of a hurled sheet [m/s]
+    // Largest accepted ratio of the final to the initial energy [1]. Near their stability limit the energy of
+    // symplectic schemes oscillates by a fifth; the energy of an unstable scheme grows without bound.
+    static constexpr double energy_ratio = 1.5;
+};
 
 std::vector<std::string> overrides_of(const StabilityCell& cell, bool body)
 {
@@ -40,7 +46,7 @@ void begin(ViolentStart kind, double spacing, State& state)
             if (kind == ViolentStart::stretched && c < 2) x *= 1.5;
             if (kind == ViolentStart::hurled && c == 2) {
                 x += 0.3;
-                state.vel[c * vs + v] = -hurled_speed;
+                state.vel[c * vs + v] = -StabilityTuning::hurled_speed;
             }
         }
 }
@@ -49,16 +55,16 @@ int step_count(const StabilityCell& cell) { return cell.resolution > 32 ? 4 : 10
 
 double total_energy(Phase& phase) { return phase.newton().potential_energy() + phase.newton().kinetic_energy(); }
 
-// The lowest that gravity's part of the energy can get: all cloth at the bottom of a fall from its start.
+// The potential energy that gravity can supply [J], from a fall of the given time and start speed plus 1 m.
 double gravity_reserve(const State& state, const Params& params, double time, double speed)
 {
     double mass = 0;
     for (int v = 0; v < state.size.vertex_count; ++v) mass += state.mass[v];
-    const double g = std::abs(params.gravity.acceleration_z), way = speed * time + 0.5 * g * time * time + 1;
-    return mass * g * way;
+    const double g = std::abs(params.gravity.acceleration_z), fall = speed * time + 0.5 * g * time * time + 1;
+    return mass * g * fall;
 }
 
-// Takes the steps; returns whether they were all as long as asked.
+// Takes the steps of a cell. Returns whether all of them had the requested length.
 bool take_steps(Phase& phase, const StabilityCell& cell, StabilityResult& result)
 {
     const auto integrator = make_integrator(cell.integrator, phase);
@@ -74,8 +80,9 @@ bool take_steps(Phase& phase, const StabilityCell& cell, StabilityResult& result
         const double before = result.seconds;
         time += control.advance(until - time, newton, true);
         result.seconds = thread_seconds() - start;
-        if (result.seconds > patience) {
-            result.verdict = result.seconds - before > hang ? StabilityVerdict::hung : StabilityVerdict::slow;
+        if (result.seconds > StabilityTuning::longest_cell) {
+            const bool hung = result.seconds - before > StabilityTuning::longest_step;
+            result.verdict = hung ? StabilityVerdict::hung : StabilityVerdict::slow;
             return false;
         }
     }
@@ -90,11 +97,12 @@ bool is_finite(const State& state)
     return std::isfinite(sum);
 }
 
+// Whether small random velocities grow when an explicit integrator takes steps dt, that is, dt is above its limit.
 bool grows(SceneRunner& runner, const std::string& integrator_name, double dt)
 {
     Phase phase = runner.make_phase(false);
     State& state = phase.state();
-    // Without the start's ripple the sheet is at rest, and what grows grows from the velocities alone.
+    // The ripple of the scene's start is removed: a flat sheet is in equilibrium, so only the velocities move it.
     std::fill_n(state.pos.begin() + 2 * state.size.vertex_stride, state.size.vertex_count, 0.27);
     for (int v = 0; v < state.size.vertex_count; ++v)
         for (int c = 0; c < 3; ++c)
@@ -160,7 +168,7 @@ StabilityResult run_cell(const StabilityCell& cell)
     begin(cell.start, runner.model().edge_length, phase.state());
     phase.look_around();
     result.tangled = crossings(runner, phase, cell);
-    const double speed = cell.start == ViolentStart::hurled ? hurled_speed : 0;
+    const double speed = cell.start == ViolentStart::hurled ? StabilityTuning::hurled_speed : 0;
     const double reserve = gravity_reserve(phase.state(), phase.params(), step_count(cell) * cell.step, speed);
     const double before = total_energy(phase) + reserve;
     try {
@@ -175,10 +183,10 @@ StabilityResult run_cell(const StabilityCell& cell)
         result.message = error.what();
     }
     result.energy_ratio = (total_energy(phase) + reserve) / before;
-    // Even a run that gives up must leave a state that is worth keeping.
-    const bool sound = is_finite(phase.state()) && result.energy_ratio <= energy_slack;
+    // The state must be sound even after a run that gave up, because it is the last good state.
+    const bool sound = is_finite(phase.state()) && result.energy_ratio <= StabilityTuning::energy_ratio;
     if (sound) result.crossed = crossings(runner, phase, cell);
-    // Cloth that is tangled from the start may take its time.
+    // Cloth that intersects itself from the start may still do so at the end.
     if (!sound || (result.tangled == 0 && result.crossed > 0)) result.verdict = StabilityVerdict::garbage;
     return result;
 }

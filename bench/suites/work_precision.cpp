@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 struct Measured {
     std::vector<PrecisionScene> scenes;
     std::vector<PrecisionReference> references;
-    std::vector<std::string> standards;  // what `drape` takes when the scene does not say, per scene
+    std::vector<std::string> standards;  // per scene: the integrator that `drape` would choose by default
     std::vector<PrecisionPoint> points;
 };
 
@@ -43,10 +43,10 @@ void measure_scene(const PrecisionScene& scene, bool quick, Measured& to)
     for (const RunSetting& setting : precision_settings(scene, until, limit, quick)) {
         std::cerr << fmt::format("{}: {} step {:.3g} s\n", scene.name, setting.integrator, setting.step);
         PrecisionPoint point{scene.name, setting.integrator, setting, {}, 0};
-        // One thread, and the time that it ran: small scenes gain little from more, and who else uses the machine
-        // does not matter.
+        // Each run has one thread and is judged by its CPU time. Small scenes gain little from more threads, and CPU
+        // time does not depend on other programs.
         alone.execute([&] { point.result = runner.run(setting); });
-        // No integrator is judged by itself.
+        // A run is never compared with a reference by the same integrator.
         const bool own = setting.integrator == reference.integrator;
         point.error = position_error(point.result.positions, own ? reference.other : reference.positions, start);
         point.result.positions.clear();
@@ -165,7 +165,7 @@ void bench_work_precision(bool json, const std::vector<std::string>& arguments, 
     std::filesystem::create_directories(folder);
     for (const PrecisionScene& scene : precision_scenes(options["--scene"])) {
         measure_scene(scene, quick, measured);
-        // Whoever stops a long run keeps the scenes that are done.
+        // The files are rewritten after each scene, so that stopping the suite keeps the scenes that are done.
         write_file_atomically(folder + "/work_precision.json", json_report(measured).dump(2) + "\n");
         write_file_atomically(folder + "/work_precision.csv", csv_text(measured.points));
         write_png(folder + "/work_precision.png", diagram(measured));

@@ -5,9 +5,9 @@
 
 namespace selvage {
 
-/// Run time against error, for every integrator over steps, tolerances and precisions, on scenes of their own kinds:
-/// a swinging sheet, a stiff cantilever, a drape over a sphere, and a search for the shape at rest. Errors are
-/// distances to a double-precision run of another integrator whose own error is printed with them.
+/// Measures run time against error for every integrator over steps, tolerances and precisions, on four kinds of scene:
+/// a swinging sheet, a stiff cantilever, a drape over a sphere, and a search for the shape at rest. The error of a run
+/// is its distance to a double-precision reference run of another integrator, whose own error is printed too.
 /// Options: `--scene NAME`, `--output FOLDER` (default bench-out), `--quick 1` for fewer points.
 /// Writes work_precision.json, .csv and .png there and prints a table, or the JSON, and one sentence per scene.
 /// @throws InputError for a bad option or a folder that cannot be written

@@ -1,16 +1,15 @@
-// Bending hysteresis from the friction between yarns: each hinge is tied to an elastic anchor, which slips at a moment
-// L.
+// Bending hysteresis from the friction between yarns. Each hinge is tied to an elastic anchor that slips at the moment
+// L, called the hinge's friction moment.
 //     phi = 2 (sin(theta/2) - sin(theta0/2)),  w = phi - anchor,  q = |w|,  r = stick curvature * width of the hinge
 //     q <= r:  E = L q^2 / (2 r),    M = L w / r         (sticks: elastic return to the anchor)
 //     q >  r:  E = L (q - r / 2),    M = L w / q         (slips: |M| = L)
 //     f_i = -M cos(theta/2) dtheta/dx_i
 // After every step a slipping hinge drags its anchor so that q <= r (stages/settle_hysteresis.h). A cloth that is bent
-// to and fro then has a hysteresis loop of width 2HB around its elastic moment, on any mesh
-// (host/solver/state/hysteresis.hpp).
-// Source: a frictional couple beside the rigidity as in Grosberg 1966 and Kawabata 1980; the elastic anchor is that of
-// terms/friction.h.
-// The projected stiffness drops M d2phi/dx2 and uses the secant M / w in place of the tangent dM/dphi. The secant is
-// never negative, and it stays positive for a slipping hinge, which sticks again as soon as its motion reverses.
+// to and fro then has a hysteresis loop of width 2HB around its elastic moment. host/solver/state/hysteresis.hpp
+// chooses L so that this width does not depend on the mesh. Source: a frictional couple beside the rigidity as in
+// Grosberg 1966 and Kawabata 1980; the elastic anchor is that of terms/friction.h. The projected stiffness drops M
+// d2phi/dx2 and uses the secant M / w in place of the tangent dM/dphi. The secant is never negative, and it stays
+// positive for a slipping hinge, which sticks again as soon as its motion reverses.
 #pragma once
 #include "../hinge.h"
 
