@@ -35,7 +35,7 @@ void move_into_place(const std::string& temporary, const std::string& path)
 {
     if (!synchronise(temporary, O_RDWR)) fail(temporary);
     if (std::rename(temporary.c_str(), path.c_str()) != 0) fail(path);
-    // Some file systems cannot synchronise a folder; the rename is atomic all the same.
+    // A failure is ignored, because some file systems cannot synchronise a folder; the rename is atomic nevertheless.
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     synchronise(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
 }

@@ -6,7 +6,7 @@
 
 namespace selvage {
 
-/// Where in the user's input a fault lies; empty members are left out of the message.
+/// The place of a fault in the user's input; empty members are left out of the message.
 struct InputPlace {
     std::string file;  ///< Path as the user gave it.
     int line = 0;      ///< From 1; 0 if unknown.

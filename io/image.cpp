@@ -31,7 +31,7 @@ void write_png(const std::string& file, const Image& image)
             const Rgb& rgb = image.at(column, row);
             bgr.at<cv::Vec3b>(row, column) = {rgb[2], rgb[1], rgb[0]};
         }
-    // Encoded in memory, so that the file's name need not end in ".png" and a full disk is noticed.
+    // The picture is encoded in memory, so that the file's name need not end in ".png" and a full disk is detected.
     std::vector<std::uint8_t> bytes;
     cv::imencode(".png", bgr, bytes);
     std::ofstream stream(file, std::ios::binary);

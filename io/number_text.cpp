@@ -9,10 +9,10 @@ namespace {
 
 struct UnitSlip {
     std::string_view unit, meant;
-    double factor;  ///< Value in `unit` = value in `meant` / factor.
+    double factor;  ///< Number of `meant` in one `unit`.
 };
 
-// What users write instead of the SI unit, the likeliest first.
+// The units in which users are likely to give a value instead of the SI unit, the most likely first.
 constexpr UnitSlip slips[] = {
     {"m", "mm", 1e3},     {"m", "cm", 1e2}, {"kg/m^2", "g/m^2", 1e3}, {"s", "ms", 1e3},
     {"N m", "uN m", 1e6}, {"N", "mN", 1e3}, {"N/m", "mN/m", 1e3},     {"Pa", "mPa", 1e3},

@@ -5,8 +5,8 @@
 
 namespace selvage {
 
-/// Returns the rotation that turns a file's up direction into z and keeps right-handedness:
-/// x: (x, y, z) -> (y, z, x);  y: (x, y, z) -> (x, -z, y);  z: nothing.
+/// Returns the rotation that maps a file's up direction to z:
+/// x: (x, y, z) -> (y, z, x);  y: (x, y, z) -> (x, -z, y);  z: the identity.
 inline Mat3 z_up_from(std::string_view up_axis)
 {
     Mat3 turn = Mat3::Identity();

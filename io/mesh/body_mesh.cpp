@@ -12,7 +12,9 @@
 namespace selvage {
 namespace {
 
-constexpr double smallest_extent = 0.05, largest_extent = 5;  // [m]
+// A body outside this range of sizes was probably read in a wrong unit [m]. The range covers a part of a human body as
+// well as a room; it was chosen by hand.
+constexpr double smallest_extent = 0.05, largest_extent = 5;
 
 struct SortedEdge {
     int low, high;
@@ -57,7 +59,7 @@ void check_edges(const TriangleMesh& mesh, BodyMeshReport& report)
 
 void check_faces(const TriangleMesh& mesh, double extent, BodyMeshReport& report)
 {
-    // Below rounding of the coordinates that the area is computed from.
+    // An area counts as zero if it is within the rounding error of coordinates of this extent.
     const double smallest_area = 1e-14 * extent * extent;
     for (int face = 0; face < int(mesh.faces.size()); ++face) {
         const auto [i, j, k] = mesh.faces[std::size_t(face)];

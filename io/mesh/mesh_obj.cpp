@@ -16,7 +16,7 @@ namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-// Takes the next word off a line; empty at its end.
+// Removes the next word from a line and returns it; empty at the end of the line.
 std::string_view take_word(std::string_view& line)
 {
     std::size_t begin = 0;
@@ -140,7 +140,7 @@ int ObjReader::read_index(std::string_view& word, int count, const char* kind, i
                "an index from 1 or from -1 to -" + std::to_string(count));
     word.remove_prefix(std::size_t(end.ptr - word.data()));
     index = index > 0 ? index - 1 : count + index;
-    // Faces may stand before their vertices, so the upper bound is checked at the end of the file.
+    // A face may come before its vertices in the file, so the upper bound is checked at the end of the file.
     if (index > largest) {
         largest = index;
         largest_line = line_;
@@ -158,7 +158,7 @@ Corner ObjReader::read_corner(std::string_view word)
         if (!word.empty() && word.front() != '/')
             corner.texture =
                 read_index(word, int(texture_.size()), "texture coordinate", largest_texture_, largest_texture_line_);
-        // What follows is a normal's index, which is of no use here.
+        // The index of a normal follows; normals are not read.
         if (!word.empty() && word.front() == '/')
             word.remove_prefix(std::min(word.find_first_not_of("-0123456789", 1), word.size()));
     }

@@ -19,8 +19,8 @@ namespace selvage {
 TriangleMesh read_obj(const std::string& path, const std::string& unit, const std::string& up_axis,
                       std::vector<Vec2>* texture = nullptr);
 
-/// Returns the files that a name with one * in its last part stands for, sorted by name.
-/// @param place  for messages
+/// Returns the files that match a path with one * in its last part, sorted by name.
+/// @param place  for error messages
 /// @throws InputError if there is no *, or no such file
 std::vector<std::string> sequence_files(const std::string& pattern, const InputPlace& place);
 
@@ -35,7 +35,7 @@ struct ObjObject {
     std::span<const Vec2> texture = {};  ///< Empty, or one per position.
 };
 
-/// Writes an OBJ file under a temporary name and renames it.
+/// Writes an OBJ file under a temporary name and moves it into place.
 /// @throws InputError if the folder cannot be written
 void write_obj(const std::string& path, std::span<const ObjObject> objects);
 

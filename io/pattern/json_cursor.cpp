@@ -24,7 +24,7 @@ InputPlace place_of_byte(std::string_view text, std::size_t byte, const std::str
     return {file, 1 + int(std::count(before.begin(), before.end(), '\n')), 1 + int(before.size() - line_begin), {}};
 }
 
-// The library's messages begin with its own name, number and position, which the user's place already tells.
+// Removes the library's name, error number and position from the start of its message; InputPlace has the position.
 std::string plain_message(const std::string& message)
 {
     const std::size_t error = message.find("syntax error");

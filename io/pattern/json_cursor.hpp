@@ -34,7 +34,8 @@ public:
     int size() const { return int(value_->size()); }
 
     const JsonCursor& object() const;
-    /// @param expected  what the list holds, for messages
+    /// Requires a list.
+    /// @param expected  what the list should hold, for error messages; the same holds for the functions below
     const JsonCursor& list(std::string_view expected) const;
     double number(std::string_view expected) const;
     int integer(std::string_view expected) const;

@@ -55,7 +55,7 @@ struct Pattern {
     std::string name;
     std::vector<PatternPanel> panels;
     std::vector<PatternStitch> stitches;
-    std::vector<std::string> warnings;  ///< What the reader found odd but could use.
+    std::vector<std::string> warnings;  ///< Values that the reader found unusual but could use.
 };
 
 }  // namespace selvage

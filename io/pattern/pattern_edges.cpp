@@ -8,9 +8,12 @@
 namespace selvage {
 namespace {
 
-constexpr double shortest_edge = 1e-5;   // [m]
-constexpr double farthest_control = 10;  // [m]
-constexpr double smallest_area = 1e-8;   // [m^2]
+// Limits beyond which an outline is a mistake. They were chosen by hand, far outside the sizes of clothes.
+struct OutlineLimits {
+    static constexpr double shortest_edge = 1e-5;   // distance of an edge's ends [m]
+    static constexpr double farthest_control = 10;  // distance of a control point from its edge's start [m]
+    static constexpr double smallest_area = 1e-8;   // area within the outline [m^2]
+};
 
 const Vec2& corner(const PatternPanel& panel, int vertex) { return panel.vertices[std::size_t(vertex)]; }
 
@@ -23,9 +26,9 @@ void read_endpoints(const JsonCursor& cursor, const PatternPanel& panel, Pattern
     edge.end = cursor.at(1).integer(expected);
     if (std::min(edge.start, edge.end) < 0 || std::max(edge.start, edge.end) > last) cursor.refuse(expected);
     const double length = (corner(panel, edge.end) - corner(panel, edge.start)).norm();
-    if (length < shortest_edge)
+    if (length < OutlineLimits::shortest_edge)
         cursor.refuse_as("an edge of length " + rounded_text(length) + " m",
-                         "ends that are at least " + number_text(shortest_edge) + " m apart");
+                         "ends that are at least " + number_text(OutlineLimits::shortest_edge) + " m apart");
 }
 
 Vec2 control_point(const JsonCursor& cursor, const PatternUnits& units, const PatternPanel& panel,
@@ -36,8 +39,8 @@ Vec2 control_point(const JsonCursor& cursor, const PatternUnits& units, const Pa
     const Vec2 across(-along.y(), along.x());
     const Vec2 point =
         units.relative_controls ? Vec2(start + given.x() * along + given.y() * across) : Vec2(units.scale * given);
-    if (!((point - start).norm() <= farthest_control))
-        cursor.refuse("a control point within " + number_text(farthest_control) + " m of its edge");
+    if (!((point - start).norm() <= OutlineLimits::farthest_control))
+        cursor.refuse("a control point within " + number_text(OutlineLimits::farthest_control) + " m of its edge");
     return point;
 }
 
@@ -62,7 +65,7 @@ void read_arc(const JsonCursor& params, const PatternUnits& units, const Pattern
 void read_curvature(const JsonCursor& cursor, const PatternUnits& units, const PatternPanel& panel, PatternEdge& edge,
                     std::vector<std::string>& warnings)
 {
-    // A bare pair is how older files write a quadratic curve.
+    // Older files write a quadratic curve as a bare control point.
     if (cursor.value().is_array()) {
         edge.curve = EdgeCurve::quadratic;
         edge.control[0] = control_point(cursor, units, panel, edge);
@@ -106,9 +109,9 @@ void check_loop(const JsonCursor& cursor, const PatternPanel& panel)
         const Vec2 &a = corner(panel, edge.start), &b = corner(panel, edge.end);
         area += (a.x() * b.y() - a.y() * b.x()) / 2;
     }
-    if (straight && std::abs(area) < smallest_area)
+    if (straight && std::abs(area) < OutlineLimits::smallest_area)
         cursor.refuse_as("an outline around " + rounded_text(std::abs(area)) + " m^2",
-                         "an area of at least " + number_text(smallest_area) + " m^2");
+                         "an area of at least " + number_text(OutlineLimits::smallest_area) + " m^2");
 }
 
 }  // namespace

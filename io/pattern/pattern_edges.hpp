@@ -7,15 +7,16 @@
 
 namespace selvage {
 
-/// How a pattern file writes lengths and control points.
+/// The units in which a pattern file gives lengths and control points.
 struct PatternUnits {
     double scale = 0.01;            ///< Metres per unit of the file.
-    bool relative_controls = true;  ///< Control points count along and across the edge, in edge lengths.
+    bool relative_controls = true;  ///< Control points are along and across the edge, in units of its length.
 };
 
 /// Reads the closed outline of a panel whose vertices are known.
-/// @param warnings  gets what is odd but usable
-/// @throws InputError for wrong values, an open or crossing-over loop, edges without length
+/// @param panel     its vertices are read, its edges are filled
+/// @param warnings  unusual but usable values are added to it
+/// @throws InputError for wrong values, an open or self-crossing loop, edges without length
 void read_edges(const JsonCursor& cursor, const PatternUnits& units, PatternPanel& panel,
                 std::vector<std::string>& warnings);
 

@@ -16,9 +16,13 @@
 namespace selvage {
 namespace {
 
-constexpr double largest_panel = 5, smallest_panel = 0.005;  // [m]
-constexpr double largest_distance = 100;                     // of a panel from the origin [m]
+// Limits beyond which a panel's unit or placement is a mistake. They were chosen by hand, far outside those of clothes.
+struct PanelLimits {
+    static constexpr double smallest = 0.005, largest = 5;  // longest side of the bounding box [m]
+    static constexpr double largest_distance = 100;         // distance from the origin [m]
+};
 
+// Suggests a unit in which a panel has a plausible size; empty if there is none.
 std::string unit_hint(double extent_in_units)
 {
     for (const double units : {100.0, 1000.0, 1.0, 39.37}) {
@@ -28,7 +32,7 @@ std::string unit_hint(double extent_in_units)
     return {};
 }
 
-// One reader per file: holds what every panel needs.
+// Reads one file; its members are what the reading of every panel needs.
 class PatternReader {
 public:
     PatternReader(const JsonCursor& root, const GarmentScene& garment) : root_(root), garment_(garment) {}
@@ -49,7 +53,7 @@ private:
     const GarmentScene& garment_;
     PatternUnits units_;
     Pattern pattern_;
-    std::map<std::pair<int, int>, std::string> stitched_;  ///< Panel and edge to the stitch that has it.
+    std::map<std::pair<int, int>, std::string> stitched_;  ///< Maps (panel, edge) to the stitch that uses it.
 };
 
 Pattern PatternReader::read()
@@ -83,7 +87,7 @@ void PatternReader::read_properties()
     units_.relative_controls = word == "relative";
 }
 
-// `panel_order` comes first where it is given; panels that it leaves out follow in the file's order.
+// Returns the panels in the order of the key `panel_order`; panels that it leaves out follow in the order of the file.
 std::vector<std::string> PatternReader::panel_order(const JsonCursor& panels) const
 {
     std::vector<std::string> all, order;
@@ -124,18 +128,18 @@ void PatternReader::read_vertices(const JsonCursor& cursor, PatternPanel& panel)
         high = high.cwiseMax(vertex);
     }
     const double extent = (high - low).maxCoeff();
-    if (extent >= smallest_panel && extent <= largest_panel) return;
+    if (extent >= PanelLimits::smallest && extent <= PanelLimits::largest) return;
     cursor.refuse_as(
         "a panel that measures " + rounded_text(extent) + " m with units_in_meter = " + rounded_text(1 / units_.scale),
-        "a panel of " + range_text(smallest_panel, largest_panel, "m"), unit_hint(extent / units_.scale));
+        "a panel of " + range_text(PanelLimits::smallest, PanelLimits::largest, "m"), unit_hint(extent / units_.scale));
 }
 
 void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel)
 {
     const JsonCursor translation = cursor.at("translation"), rotation = cursor.at("rotation");
     const Vec3 moved = units_.scale * translation.vector3("three numbers [x, y, z]");
-    if (!(moved.norm() <= largest_distance))
-        translation.refuse("a place within " + number_text(largest_distance) + " m of the origin");
+    if (!(moved.norm() <= PanelLimits::largest_distance))
+        translation.refuse("a place within " + number_text(PanelLimits::largest_distance) + " m of the origin");
     const Vec3 angles = rotation.vector3("three angles [x, y, z] in degrees");
     if (!(angles.cwiseAbs().maxCoeff() <= 1e4)) rotation.refuse("angles within 10000 degrees");
 

@@ -3,8 +3,8 @@
 
 namespace selvage {
 
-/// Says what a run.h5 holds: frames, points, triangles, time range, panels, size on disk, version.
-/// @param json  JSON text instead of lines for a reader
+/// Describes the contents of a run.h5: frames, points, triangles, time range, panels, size on disk, version.
+/// @param json  true: JSON text; false: lines for a human reader
 /// @throws InputError if the file is not a run.
 std::string describe_file(const std::string& path, bool json);
 

@@ -10,7 +10,7 @@
 namespace selvage {
 namespace {
 
-// HDF5 prints its error stack by default; here it becomes part of the exception instead.
+// HDF5 prints its error stack by default. Here the deepest error becomes part of the exception instead.
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 std::string deepest_error()
@@ -116,7 +116,7 @@ Hdf5Id Hdf5File::make_dataset(const std::string& name, hid_t file_type, const st
 {
     const Hdf5Id space = simple_space(shape, storage.growing);
     const Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
-    // An empty dataset cannot be chunked by its own shape, and has nothing to compress.
+    // An empty dataset is left contiguous: a chunk cannot have the shape of no data, and there is nothing to compress.
     const bool empty = std::ranges::count(shape, hsize_t(0)) > 0;
     const std::vector<hsize_t>& chunk = storage.compressed && storage.chunk.empty() && !empty ? shape : storage.chunk;
     if (!chunk.empty()) {

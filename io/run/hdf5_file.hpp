@@ -10,13 +10,13 @@
 
 namespace selvage {
 
-/// Owns one HDF5 identifier and closes it. HDF5 is not thread-safe: use it from one thread at a time.
+/// Owns one HDF5 identifier and closes it. HDF5 is not thread-safe, so only one thread at a time may use it.
 class Hdf5Id {
 public:
     using Closer = herr_t (*)(hid_t);
 
     Hdf5Id() = default;
-    /// @throws std::runtime_error with HDF5's own words and `what` if `id` is negative.
+    /// @throws std::runtime_error with HDF5's own message and `what` if `id` is negative.
     Hdf5Id(hid_t id, Closer closer, std::string_view what);
     Hdf5Id(Hdf5Id&& other) noexcept { *this = std::move(other); }
     Hdf5Id& operator=(Hdf5Id&& other) noexcept;
@@ -30,15 +30,15 @@ private:
     Closer closer_ = nullptr;
 };
 
-/// @throws std::runtime_error with HDF5's own words and `what` if `status` is negative.
+/// @throws std::runtime_error with HDF5's own message and `what` if `status` is negative.
 void require_hdf5(herr_t status, std::string_view what);
 
 /// How a dataset is stored; an empty `chunk` means contiguous, or one chunk if compressed.
 struct Hdf5Storage {
-    bool compressed = false;  ///< Shuffle and gzip 1.
+    bool compressed = false;  ///< By the shuffle filter and gzip level 1.
     bool growing = false;     ///< The first dimension is unlimited.
     std::vector<hsize_t> chunk;
-    bool checked = false;  ///< With a checksum per chunk: damage is found when reading.
+    bool checked = false;  ///< With a checksum per chunk, so that damage is detected when reading.
 };
 
 enum class Hdf5Access { create, read, append };
@@ -52,12 +52,12 @@ public:
 
     const std::string& path() const { return path_; }
     hid_t id() const { return file_; }
-    bool exists(const std::string& object) const;  ///< Every link of the path exists.
+    bool exists(const std::string& object) const;  ///< True if every link of the path exists.
     void flush();
     void close() { file_.reset(); }
 
     void make_group(const std::string& group);
-    void link(const std::string& target, const std::string& name);  ///< A second name of the same object.
+    void link(const std::string& target, const std::string& name);  ///< Gives an object a second name.
     void link_softly(const std::string& target, const std::string& name);
 
     /// @param file_type  number type in the file

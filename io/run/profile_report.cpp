@@ -24,7 +24,7 @@ double copy_fraction(const ProfileReport& report, const ProfileRow& row)
     return double(row.bytes) / row.total_s / report.copy_bytes_per_second;
 }
 
-// The rows in the order of the tree, dearer siblings first.
+// Returns the rows in depth-first order; of siblings the one with the longest total time comes first.
 std::vector<int> tree_order(const ProfileReport& report)
 {
     std::vector<std::vector<int>> children(report.rows.size());

@@ -7,42 +7,43 @@
 
 namespace selvage {
 
-/// What one phase of a run cost, or a part of a phase.
+/// The cost of one phase of a run, or of a part of a phase.
 struct ProfileRow {
     std::string name;
-    int parent = -1, depth = 0;  ///< Row of the phase that it is part of; a row stands after its parent.
+    int parent = -1, depth = 0;  ///< `parent` is the row of the phase that it is part of; parents come first.
     std::int64_t calls = 0;
-    std::int64_t launches = 0;          ///< Of work that is shared among threads, without those of its parts.
-    double total_s = 0, self_s = 0;     ///< Self: without the parts below it.
-    double p50_s = 0, p95_s = 0;        ///< Of one call.
-    double busy_s = 0;                  ///< In tasks of all threads, parts included.
-    std::int64_t bytes = 0, flops = 0;  ///< That it must move and compute, over all calls; 0: not known.
+    std::int64_t launches = 0;          ///< Parallel loops that it started, without those of its parts.
+    double total_s = 0, self_s = 0;     ///< `self_s` is without its parts.
+    double p50_s = 0, p95_s = 0;        ///< Percentiles of the time of one call.
+    double busy_s = 0;                  ///< Time in tasks, summed over all threads, its parts included.
+    std::int64_t bytes = 0, flops = 0;  ///< Necessary traffic and arithmetic of all calls; 0: not known.
 };
 
-/// A span on the track of one thread, [ns] since the start.
+/// A time span on the track of one thread, in [ns] since the start of the run.
 struct ProfileEvent {
     std::int64_t begin = 0, end = 0;
     int row = 0;
-    bool task = false;  ///< Work that was shared among threads; false: the phase itself.
+    bool task = false;  ///< True: a task of a parallel loop; false: the phase itself.
 };
 
 struct ProfileTrack {
     std::string thread;
     std::vector<ProfileEvent> events;  ///< Properly nested; outer ones before inner ones.
-    std::int64_t left_out = 0;         ///< Events that were too short to be kept,
-    double shortest_s = 0;             ///< that is, below this.
+    std::int64_t left_out = 0;         ///< Number of events that were too short to be kept.
+    double shortest_s = 0;             ///< The length below which an event was too short [s].
 };
 
 /// The profile of a run.
 struct ProfileReport {
     MachineInfo machine;
     int threads = 1;
-    double copy_bytes_per_second = 0;  ///< Of the machine with these threads, measured.
+    double copy_bytes_per_second = 0;  ///< Measured copy bandwidth of the machine with this number of threads.
     std::vector<ProfileRow> rows;
     std::vector<ProfileTrack> tracks;
 };
 
-/// The rows as a table, indented by depth, and below it what binds those whose traffic is known.
+/// Returns the rows as a table, indented by depth, with bandwidth and arithmetic rates where traffic and work are
+/// known.
 std::string profile_table(const ProfileReport& report);
 
 /// Writes the tracks as a Chrome trace, which Perfetto and chrome://tracing open.

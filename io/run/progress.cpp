@@ -14,8 +14,13 @@
 namespace selvage {
 namespace {
 
-constexpr double live_interval = 0.2, plain_interval = 2;  // [s]
-constexpr std::size_t trend_samples = 200, least_samples = 8;
+// How progress is shown and extrapolated. All values were chosen by hand; none was measured.
+struct ProgressTuning {
+    static constexpr double live_interval = 0.2;      // wall time between updates of a terminal's line [s]
+    static constexpr double plain_interval = 2;       // wall time between lines when stderr is not a terminal [s]
+    static constexpr std::size_t most_samples = 200;  // recent steps to which the trend is fitted
+    static constexpr std::size_t least_samples = 8;   // steps without which no trend of the residual is reported
+};
 
 nlohmann::ordered_json number(double value)
 {
@@ -35,7 +40,7 @@ std::string duration(double seconds)
 void EtaEstimate::add(double wall, const ProgressState& state)
 {
     samples_.push_back({wall, state.time, state.residual > 0 ? std::log(state.residual) : NAN});
-    if (samples_.size() > trend_samples) samples_.pop_front();
+    if (samples_.size() > ProgressTuning::most_samples) samples_.pop_front();
 }
 
 double EtaEstimate::seconds_left() const
@@ -47,7 +52,7 @@ double EtaEstimate::seconds_left() const
         const double advance = last.time - first.time;
         return advance > 0 && wall > 0 ? std::max(0.0, end_time_ - last.time) * wall / advance : NAN;
     }
-    // Least squares through (wall, log residual).
+    // A least-squares line through the points (wall, log residual).
     double count = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
     for (const Sample& sample : samples_) {
         if (!std::isfinite(sample.log_residual)) continue;
@@ -55,7 +60,7 @@ double EtaEstimate::seconds_left() const
         count += 1, sum_x += x, sum_y += sample.log_residual, sum_xx += x * x, sum_xy += x * sample.log_residual;
     }
     const double spread = count * sum_xx - sum_x * sum_x;
-    if (count < double(least_samples) || !(spread > 0) || !(tolerance_ > 0)) return NAN;
+    if (count < double(ProgressTuning::least_samples) || !(spread > 0) || !(tolerance_ > 0)) return NAN;
     const double slope = (count * sum_xy - sum_x * sum_y) / spread;
     const double fitted = sum_y / count + slope * (wall - sum_x / count);
     return slope < 0 ? std::max(0.0, (std::log(tolerance_) - fitted) / slope) : NAN;
@@ -63,7 +68,8 @@ double EtaEstimate::seconds_left() const
 
 ProgressReport::ProgressReport(const ProgressOptions& options)
     : options_(options), estimate_(options.end_time, options.tolerance), file_(nullptr, std::fclose),
-      start_(std::chrono::steady_clock::now()), shown_at_(-plain_interval), terminal_(isatty(STDERR_FILENO))
+      start_(std::chrono::steady_clock::now()), shown_at_(-ProgressTuning::plain_interval),
+      terminal_(isatty(STDERR_FILENO))
 {
     if (options_.path.empty()) return;
     file_.reset(std::fopen(options_.path.c_str(), options_.append ? "ae" : "we"));
@@ -89,7 +95,7 @@ void ProgressReport::update(const ProgressState& state)
     estimate_.add(wall, state);
     const double seconds_left = estimate_.seconds_left();
     if (file_) write_line(state, wall, seconds_left);
-    const double interval = terminal_ ? live_interval : plain_interval;
+    const double interval = terminal_ ? ProgressTuning::live_interval : ProgressTuning::plain_interval;
     if (options_.quiet || (!phase_begins && wall - shown_at_ < interval)) return;
     shown_at_ = wall;
     show(state, wall, seconds_left);
@@ -116,7 +122,7 @@ void ProgressReport::show(const ProgressState& state, double wall, double second
     line += "  wall " + duration(wall);
     line += "  ETA " + (std::isfinite(seconds_left) ? duration(seconds_left) : std::string("-"));
     if (terminal_) {
-        std::fprintf(stderr, "\r\x1b[K%s", line.c_str());  // Erases the rest of the old line.
+        std::fprintf(stderr, "\r\x1b[K%s", line.c_str());  // \x1b[K erases the rest of the old line
         live_line_ = true;
     } else {
         std::fprintf(stderr, "%s\n", line.c_str());

@@ -8,19 +8,19 @@
 
 namespace selvage {
 
-/// Where a run stands.
+/// The present state of a run.
 struct ProgressState {
     std::string phase;  ///< Such as `sewing` or `draping`.
     double time = 0;    ///< Simulated [s].
     long step = 0;
     double residual = std::numeric_limits<double>::quiet_NaN();  ///< Relative force residual [1]; NaN: unknown.
-    int frames = 0;                                              ///< Written so far.
+    int frames = 0;                                              ///< Frames written so far.
 };
 
 struct ProgressOptions {
     std::string path;                                           ///< progress.jsonl; empty: no file.
-    bool append = false;                                        ///< Go on with the file instead of starting it anew.
-    bool quiet = false;                                         ///< Nothing on stderr.
+    bool append = false;                                        ///< Append to the file instead of replacing it.
+    bool quiet = false;                                         ///< Print nothing on stderr.
     double end_time = std::numeric_limits<double>::infinity();  ///< Simulated [s]; infinite: run to equilibrium.
     double tolerance = 0;                                       ///< Residual at which a run to equilibrium ends.
 };
@@ -34,10 +34,10 @@ public:
 
     /// @param wall  wall time since the start [s]
     void add(double wall, const ProgressState& state);
-    void restart() { samples_.clear(); }  ///< Forgets the past, as when another phase begins.
+    void restart() { samples_.clear(); }  ///< Discards all samples; called when another phase begins.
 
-    /// Seconds left, or NaN while no trend can be seen. With an end time: from the simulated time per wall time;
-    /// else from a straight line through the logarithm of the residual over the recent past.
+    /// Returns the wall time left [s], or NaN while there is no trend. With an end time the estimate extrapolates the
+    /// simulated time per wall time; otherwise it extrapolates a line fitted to the logarithm of the recent residuals.
     double seconds_left() const;
 
 private:
@@ -48,20 +48,20 @@ private:
     std::deque<Sample> samples_;
 };
 
-/// Tells other programs (JSON lines) and the user (stderr) how a run goes on.
+/// Reports the progress of a run to other programs (a file of JSON lines) and to the user (stderr).
 class ProgressReport {
 public:
     /// @throws InputError if the file cannot be written.
     explicit ProgressReport(const ProgressOptions& options);
     ProgressReport(const ProgressReport&) = delete;
     ProgressReport& operator=(const ProgressReport&) = delete;
-    ~ProgressReport();  ///< Ends the live line.
+    ~ProgressReport();  ///< Ends the line that is updated in place on a terminal, if there is one.
 
     /// Adds a line to the file; shows the state on a terminal at most 5 times a second, otherwise every 2 s, and
     /// at once when a phase begins.
     void update(const ProgressState& state);
 
-    /// Writes a line of text to stderr, clear of the live line; not if quiet.
+    /// Writes a line of text to stderr without overwriting the line that is updated in place; nothing if quiet.
     void message(const std::string& text);
 
 private:

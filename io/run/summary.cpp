@@ -130,7 +130,7 @@ std::string summary_json(const RunSummary& summary)
     json["warnings"] = summary.warnings;
     json["peak_memory_bytes"] = count(summary.peak_memory_bytes);
     add_state(json, summary);
-    // Names come from the user's files, which need not be UTF-8.
+    // Names come from the user's files and may not be valid UTF-8, so invalid bytes are replaced.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -10,45 +10,48 @@ namespace selvage {
 /// How a run ended.
 enum class RunStatus { converged, finished, time_limit, diverged, interrupted };
 
-/// The word for a status in summary.json, such as `time_limit`.
+/// Returns the word for a status in summary.json, such as `time_limit`.
 std::string status_name(RunStatus status);
 
+/// The use of one kernel over a whole run.
 struct KernelUse {
     std::string name;
     std::int64_t calls = 0;
     double seconds = 0;
-    std::int64_t items = 0;  ///< Over all calls.
-    std::int64_t bytes = 0;  ///< Read and written over all calls.
+    std::int64_t items = 0;  ///< Items processed in all calls.
+    std::int64_t bytes = 0;  ///< Bytes read and written in all calls.
 };
 
+/// A feature that did not run, with the reason.
 struct SkippedPart {
     std::string name;
     std::string reason;
 };
 
+/// The distortion of one panel at the end of a run.
 struct PanelFit {
     std::string name;
-    double area_error;      ///< Relative change of area against the flat panel.
-    double boundary_error;  ///< Relative change of boundary length.
+    double area_error;      ///< Relative change of area against the flat panel [1].
+    double boundary_error;  ///< Relative change of boundary length against the flat panel [1].
 };
 
-/// One of the coarser cloths that were draped first.
+/// The use of one of the coarser meshes on which the cloth was draped first.
 struct CoarseUse {
     int vertices = -1, newton_iterations = -1, linear_iterations = -1;
     double residual, seconds;
-    int intersections = 0;  ///< Of the shape carried over from it.
+    int intersections = 0;  ///< Self-intersections of its shape, interpolated to the finer mesh.
     bool used = true;       ///< False: it diverged (no residual), or its shape passes through itself on the finer mesh.
 };
 
-/// How an explicit integrator's steps stood to its stability limit; NaN: no limit.
+/// The steps of an explicit integrator and its stability limit; NaN: no limit.
 struct StabilityUse {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    double asked = unknown;  ///< solver.step [s]
-    double limit = unknown;  ///< The lowest that was met [s].
-    double taken = unknown;  ///< The shortest step [s].
+    double asked = unknown;  ///< The requested step, solver.step [s].
+    double limit = unknown;  ///< The lowest stability limit of the run [s].
+    double taken = unknown;  ///< The shortest step of the run [s].
 };
 
-/// What summary.json says. A number that is not known is NaN or negative (counts) and becomes null.
+/// The contents of summary.json. An unknown number is NaN, or negative if it is a count, and is written as null.
 struct RunSummary {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -58,14 +61,14 @@ struct RunSummary {
     int threads = -1, vertices = -1, triangles = -1;
     std::int64_t steps = -1, frames = -1, newton_iterations = -1, linear_iterations = -1;
     double simulated_s = unknown, wall_s = unknown;
-    std::vector<std::pair<std::string, double>> phases;  ///< Name and wall time [s], in order.
+    std::vector<std::pair<std::string, double>> phases;  ///< Name and wall time [s] of each phase, in order.
     std::vector<KernelUse> kernels;
     std::vector<std::string> active;  ///< Terms and stages that ran.
     std::vector<SkippedPart> skipped;
     std::vector<std::string> warnings;
     std::int64_t peak_memory_bytes = -1;
     StabilityUse stability;
-    std::vector<CoarseUse> coarse_start;  ///< Coarsest first; empty: the cloth itself fell from its start.
+    std::vector<CoarseUse> coarse_start;  ///< Coarsest mesh first; empty: no coarser mesh was used.
     double residual = unknown;            ///< Relative force residual at the end.
     struct Energy {
         double membrane = unknown, bending = unknown, gravity = unknown, contact = unknown, kinetic = unknown;
@@ -80,10 +83,10 @@ struct RunSummary {
     std::vector<PanelFit> panels;
 };
 
-/// The summary as JSON text.
+/// Returns the summary as JSON text.
 std::string summary_json(const RunSummary& summary);
 
-/// Writes it through a temporary name: the file's presence means that the run ended.
+/// Writes the summary under a temporary name and moves it into place, so the file exists only if the run ended.
 /// @throws InputError if the folder cannot be written.
 void write_summary(const std::string& path, const RunSummary& summary);
 

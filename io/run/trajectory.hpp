@@ -13,21 +13,22 @@ namespace selvage {
 
 class Hdf5File;
 
-/// To what written positions are rounded: a power of two loses nothing in float32 and compresses well.
+/// The grid to which written positions are rounded. Its spacing is a power of two, so rounded positions are exact in
+/// float32 and compress well.
 enum class PositionGrid { lossless, fine_8um, coarse_60um };
 
-/// The grid named by `output.precision`: lossless, 8um or 60um.
+/// Returns the grid named by `output.precision`: lossless, 8um or 60um.
 /// @throws InputError for any other word.
 PositionGrid position_grid(const std::string& word);
 
-/// Distance of neighbouring grid values [m]: 0, 2^-17 or 2^-14.
+/// Returns the distance of neighbouring grid values [m]: 0, 2^-17 or 2^-14.
 double grid_spacing(PositionGrid grid);
 
 /// Returns a position as it is written: rounded to the grid, then to single precision [m].
 /// @param spacing  see grid_spacing
 Eigen::Vector3f written_position(const Vec3& position, double spacing);
 
-/// Everything of a run that does not change from frame to frame.
+/// The data of a run that do not change from frame to frame.
 struct TrajectoryLayout {
     int point_count = 0;
     std::vector<Face> triangles;                           ///< Point indices; some points may belong to none.
@@ -38,33 +39,33 @@ struct TrajectoryLayout {
     std::vector<std::string> panel_names;
     std::string scene_text;  ///< The whole scene as run.
     std::string scene_file;  ///< Absolute path of the scene, or builtin:NAME.
-    std::string version;     ///< Of the program that writes.
+    std::string version;     ///< Version of the program that writes the file.
     PositionGrid grid = PositionGrid::fine_8um;
 };
 
-/// What is kept of a frame beside its positions; NaN stands for unknown, except for the time.
+/// The scalars of a frame. NaN stands for unknown, except for the time.
 struct FrameScalars {
     double time = 0;            ///< Simulated [s].
     double kinetic_energy = 0;  ///< [J]
     double total_energy = 0;    ///< [J]
     double residual = 0;        ///< Relative force residual [1].
-    double wall_seconds = 0;    ///< Since the start of the run.
+    double wall_seconds = 0;    ///< Wall time since the start of the run [s].
     int contacts = 0;
-    int iterations = 0;  ///< Of Newton's method since the previous frame.
+    int iterations = 0;  ///< Newton iterations since the previous frame.
 };
 
 /// Writes run.h5, a temporal VTKHDF PolyData file, and run.xdmf beside it.
 ///
-/// A frame is committed when write_frame returns; a file whose writer was killed at any moment opens and holds
-/// every committed frame (Steps@NSteps of them; parts of one more may be there).
+/// A frame is committed when write_frame returns. A file whose writer was killed at any moment can be opened and holds
+/// every committed frame; their number is Steps@NSteps. It may also hold parts of one more frame.
 class TrajectoryWriter {
 public:
-    /// Starts a file; an existing one is replaced once the new one is complete in itself.
+    /// Creates a file without frames. An existing file is replaced once the new one can be opened by a reader.
     /// @throws InputError if the place cannot be written; std::invalid_argument if the layout contradicts itself.
     static TrajectoryWriter create(const std::string& path, const TrajectoryLayout& layout);
 
-    /// Goes on with a file, also one whose writer was killed: keeps its first frames and appends to them.
-    /// The kept frames are copied to a new file that then takes the old one's place.
+    /// Continues a file, also one whose writer was killed: keeps its first frames and appends to them. The kept frames
+    /// are copied to a new file, which then replaces the old one.
     /// @param keep_frames  frames to keep, in [0, committed frames]
     /// @throws InputError if the file is not a run or holds fewer frames.
     static TrajectoryWriter resume(const std::string& path, int keep_frames);
@@ -79,7 +80,7 @@ public:
     void write_frame(std::span<const Vec3> positions, const FrameScalars& scalars);
 
     int frame_count() const { return int(times_.size()); }
-    double last_time() const { return times_.empty() ? 0 : times_.back(); }  ///< Of the last committed frame [s].
+    double last_time() const { return times_.empty() ? 0 : times_.back(); }  ///< Time of the last committed frame [s].
 
     /// Adds the virtual dataset /selvage/positions, writes the final run.xdmf and closes the file.
     void finish();
@@ -92,7 +93,7 @@ private:
     std::string path_;
     int point_count_, triangle_count_;
     double spacing_;
-    std::vector<double> times_;  ///< Of the committed frames [s].
+    std::vector<double> times_;  ///< Times of the committed frames [s].
     std::chrono::steady_clock::time_point index_written_{};
     std::vector<float> buffer_;  ///< Rounded positions of one frame.
     struct Datasets;
@@ -108,14 +109,14 @@ public:
     ~TrajectoryReader();
 
     const TrajectoryLayout& layout() const { return layout_; }
-    int frame_count() const { return int(scalars_.size()); }  ///< Committed frames.
+    int frame_count() const { return int(scalars_.size()); }  ///< Number of committed frames.
     const FrameScalars& scalars(int frame) const { return scalars_.at(std::size_t(frame)); }
 
-    /// Positions [m] of a frame in [0, frame_count).
+    /// Returns the positions [m] of a frame in [0, frame_count).
     /// @throws InputError if there is no such frame or it cannot be read.
     std::vector<Vec3> read_frame(int frame) const;
 
-    /// The frame as it is stored, compressed.
+    /// Returns the compressed bytes of a frame, with the mask of the filters that were skipped.
     std::vector<unsigned char> read_raw_frame(int frame, std::uint32_t& filter_mask) const;
 
 private:

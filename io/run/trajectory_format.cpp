@@ -7,7 +7,7 @@
 namespace selvage::trajectory_format {
 namespace {
 
-constexpr hsize_t column_chunk = 256;  // Rows; 2 KiB, so that short runs stay small.
+constexpr hsize_t column_chunk = 256;  // rows; 2 KiB of a scalar, so that the files of short runs stay small
 
 void check(const TrajectoryLayout& layout)
 {
@@ -33,7 +33,7 @@ std::vector<std::int64_t> flatten_integers(const Rows& rows)
     return values;
 }
 
-// One of VTK's four kinds of cells; every kind must be present.
+// Writes one of VTK's four kinds of cells. VTK requires that every kind is present, even if it is empty.
 void write_cells(Hdf5File& file, const std::string& group, const std::vector<Face>& faces)
 {
     const std::vector<std::int64_t> connectivity = flatten_integers(faces);
@@ -114,7 +114,7 @@ void write_contents(const std::string& path, const TrajectoryLayout& layout)
     write_cells(file, "/VTKHDF/Polygons", layout.triangles);
     write_arrays(file, layout);
     write_columns(file);
-    // The view is made at the end, in a group of its own: a kill meanwhile cannot hurt any other group.
+    // The view is made at the end of a run, in a separate group, so that a kill meanwhile cannot damage other groups.
     file.make_group("/selvage/views");
     file.link_softly("/selvage/views/positions", "/selvage/positions");
 }
@@ -125,7 +125,8 @@ void write_header(const std::string& path, const TrajectoryLayout& layout)
 {
     check(layout);
     write_contents(path, layout);
-    // In a file just opened the attribute goes to the end: the driver then writes it after every other header.
+    // The file is reopened so that the attribute is placed at its end: the commit driver then writes the attribute
+    // after every other header.
     Hdf5File file(path, Hdf5Access::append);
     file.set_integer(steps, "NSteps", 0);
 }

@@ -19,8 +19,8 @@ struct FrameColumn {
     int width;     ///< Numbers per row; 1: the dataset has one dimension.
 };
 
-/// The first column is written together with NSteps: vtkHDFReader overruns its buffer when there are more times
-/// than steps.
+/// All columns. The first one, the time, is written together with NSteps, because vtkHDFReader overruns its buffer when
+/// a file has more times than steps.
 inline constexpr std::array<FrameColumn, 11> frame_columns{{
     {"/selvage/time", false, 1},
     {"/VTKHDF/Steps/PartOffsets", true, 1},
@@ -35,7 +35,7 @@ inline constexpr std::array<FrameColumn, 11> frame_columns{{
     {"/selvage/iterations", true, 1},
 }};
 
-/// Datasets that equal a frame column are second names of it.
+/// Datasets that VTK requires and that are equal to a frame column: each is a hard link, {column, link}.
 inline constexpr std::array<std::array<const char*, 2>, 5> column_links{{
     {"/VTKHDF/Steps/CellOffsets", "/VTKHDF/Steps/ConnectivityIdOffsets"},
     {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/PointDataOffsets/panel_coordinates"},
@@ -47,18 +47,18 @@ inline constexpr std::array<std::array<const char*, 2>, 5> column_links{{
 /// Writes a complete file without frames under `path`.
 void write_header(const std::string& path, const TrajectoryLayout& layout);
 
-/// Opens the dataset of frames for writing: its chunks pass by the cache.
+/// Opens the dataset of positions for writing. It has no chunk cache, because each chunk is written once.
 Hdf5Id open_points(const Hdf5File& file);
 
-/// Lengthens a column to `frame` + 1 rows and writes the last one.
-/// @param values  the row, up to four numbers, of which integer columns take the whole part
+/// Extends a column to `frame` + 1 rows and writes the last one.
+/// @param values  the row, up to four numbers; integer columns truncate them
 void write_row(hid_t dataset, const FrameColumn& column, int frame, const std::array<double, 4>& values);
 
-/// The row of every column for one frame.
+/// Returns the row of every column for one frame.
 std::array<std::array<double, 4>, frame_columns.size()> frame_rows(int frame, int point_count,
                                                                    const FrameScalars& scalars);
 
-/// Makes the virtual dataset (frames, points, 3) that `/selvage/positions` leads to.
+/// Makes the virtual dataset of shape (frames, points, 3) to which the soft link `/selvage/positions` points.
 void write_positions_view(Hdf5File& file, int frame_count, int point_count);
 
 }  // namespace selvage::trajectory_format

@@ -14,14 +14,14 @@ using namespace trajectory_format;
 
 namespace {
 
-constexpr std::chrono::seconds index_interval{2};
+constexpr std::chrono::seconds index_interval{2};  // between rewrites of run.xdmf; chosen by hand, not measured
 
 std::string index_path(const std::string& path)
 {
     return std::filesystem::path(path).replace_extension(".xdmf").string();
 }
 
-// Readers never see a file without its header.
+// Writes the header under a temporary name first, so that readers never see a file with an incomplete header.
 void put_header(const std::string& path, const TrajectoryLayout& layout)
 {
     write_header(temporary_name(path), layout);
@@ -34,7 +34,7 @@ void lengthen_points(hid_t points_dataset, int frame_count, int point_count)
     require_hdf5(H5Dset_extent(points_dataset, shape.data()), points);
 }
 
-// Fills a new file with the first frames of an old one, without unpacking them.
+// Copies the first frames of an old file to a new one without decompressing them.
 void copy_frames(const TrajectoryReader& old, const std::string& path, int frame_count)
 {
     Hdf5File file(path, Hdf5Access::append);

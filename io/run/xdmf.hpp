@@ -4,7 +4,7 @@
 
 namespace selvage {
 
-/// What run.xdmf says about the run.h5 beside it.
+/// The description that run.xdmf gives of the run.h5 beside it.
 struct XdmfIndex {
     std::string hdf5_name;  ///< File name without folder.
     int point_count = 0;
@@ -12,10 +12,10 @@ struct XdmfIndex {
     std::vector<double> times;  ///< One per frame [s].
 };
 
-/// The XDMF 3 text of a temporal collection whose heavy data lie in the HDF5 file.
+/// Returns the XDMF 3 text of a temporal collection whose arrays are in the HDF5 file.
 std::string xdmf_text(const XdmfIndex& index);
 
-/// Writes it through a temporary name.
+/// Writes the text under a temporary name and moves it into place.
 /// @throws InputError if the folder cannot be written.
 void write_xdmf(const std::string& path, const XdmfIndex& index);
 
