@@ -1,5 +1,6 @@
-// A clamped strip on edge, gravity along its width: the load at which it turns over sideways. The strip is balanced
-// in its plane; the out-of-plane stiffness is K + g K', and the load is where it stops being positive.
+// Lateral buckling: the load at which a clamped strip on edge, with gravity along its width, tips over sideways. The
+// strip is in equilibrium in its plane. Its out-of-plane stiffness is K + g K', with g the load, and it buckles at the
+// load at which this matrix stops being positive definite.
 #include <cmath>
 #include <stdexcept>
 
@@ -22,12 +23,14 @@ struct Strip {
     bool plate;
 };
 
-// A grid whose first two columns are held: its squares are cut as those of the reference, unlike clamped_strip's.
+// A grid whose first two columns are pinned. Its squares have the same diagonals as the reference's, which is not the
+// case for clamped_strip.
 Cloth strip_on_edge(const Strip& strip)
 {
     const double step = 1.0 / strip.segments;
     const int rows = std::max(2, int(std::lround(strip.width / step))) + 1;
-    // As many rows as asked for, whatever the rounding: squares first, then scaled to the width.
+    // The grid is first made of squares, so that rounding cannot change the number of rows, and is then scaled to the
+    // width.
     Cloth cloth = flat_rectangle(strip.family, 1 + step, (rows - 1) * step, strip.segments + 2);
     for (int v = 0; v < int(cloth.positions.size()); ++v) {
         Vec3& x = cloth.positions[v];
@@ -39,8 +42,8 @@ Cloth strip_on_edge(const Strip& strip)
     return cloth;
 }
 
-// The lowest positive load (a multiple of the one that prestress came from) at which bending + load * prestress has
-// a negative eigenvalue, from the signs of the pivots of its factors.
+// Returns the lowest positive load at which bending + load * prestress has a negative eigenvalue, from the signs of the
+// pivots of its LDL^T factorisation. The load is a multiple of the one that `prestress` was computed for.
 double critical_load(const SparseMatrix& bending, const SparseMatrix& prestress)
 {
     Eigen::SimplicialLDLT<SparseMatrix> factor;
@@ -59,7 +62,7 @@ double critical_load(const SparseMatrix& bending, const SparseMatrix& prestress)
     return 0.5 * (low + high);
 }
 
-// Weight * L^3 / D at which the strip buckles; L = 1, D = 1.
+// Returns weight * L^3 / D at which the strip buckles; L = 1, D = 1.
 double buckling_load(const Strip& strip)
 {
     constexpr double unit_load = 1, stiffness = 1e6;  // [N/m^2], [N/m]: strains of 1e-6
@@ -79,7 +82,7 @@ double buckling_load(const Strip& strip)
     return unit_load * critical_load(bending, prestress);
 }
 
-// The recommended value of the table: the lower of two upper bounds.
+// Returns the value that the table recommends, the lower of two upper bounds.
 double thin_plate(double width, double poisson)
 {
     for (const ReferenceRow& row : reference_table("lateral_buckling_thin_plate.csv"))

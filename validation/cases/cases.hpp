@@ -13,10 +13,10 @@ struct CaseGroup {
     void (*run)(CaseReport& report);
 };
 
-/// All groups, in the order in which they run.
+/// Returns all groups, in the order in which they run.
 const std::vector<CaseGroup>& case_groups();
 
-/// Called before a group runs and after it, with what to tell the user.
+/// Called before and after each group, with a line for the user.
 using CaseProgress = std::function<void(const std::string& line)>;
 
 /// Runs groups and returns their rows. A group that throws gets a failing row.

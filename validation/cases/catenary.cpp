@@ -1,4 +1,4 @@
-// A strip of membrane without bending between two supports: catenary_cases.csv.
+// A strip of membrane without bending stiffness that hangs between two supports: catenary_cases.csv.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,9 +11,9 @@ namespace selvage {
 namespace {
 
 constexpr int segments = 160;
-constexpr double areal_density = 0.15, gravity = 9.81, width = 1;  // of the table: 1.4715 N per metre
+constexpr double areal_density = 0.15, gravity = 9.81, width = 1;  // the table's weight of 1.4715 N per metre
 
-// The rows of one case and kind: nine points each.
+// The rows of one case and kind of the table; each has nine points.
 struct Catenary {
     std::string name, kind;
     double span, rise, length, stiffness, start_tension, end_tension;
@@ -44,7 +44,7 @@ std::vector<Catenary> catenaries()
     return all;
 }
 
-// Two rows of vertices, held at both ends, and one row of faces between them.
+// A ribbon of two rows of vertices with one row of faces between them, pinned at both ends.
 Cloth ribbon(double length)
 {
     constexpr int columns = segments + 1;
@@ -63,7 +63,7 @@ Cloth ribbon(double length)
     return cloth;
 }
 
-// Starts on a parabola between the supports.
+// Places the ribbon on a parabola between the supports, as a start for the equilibrium.
 void hang(Cloth& cloth, const Catenary& wanted)
 {
     const double slack = std::max(wanted.length - std::hypot(wanted.span, wanted.rise), 0.01 * wanted.length);

@@ -24,14 +24,14 @@ struct Apparatus {
     double specimen = 0.15, support = 0.09;  // radii [m]
 };
 
-constexpr double first_fold_height = 0.005;  // [m]
+constexpr double first_fold_height = 0.005;  // amplitude of the folds in begin_folds [m]
 
 struct DrapeResult {
     double coefficient = 0;  // [%]
     int folds = 0;
 };
 
-// The fabric of a row: what the table gives, and cotton's shear and stretch, which it does not give.
+// Returns the fabric of a row of the table. The table gives no shear and stretch stiffness, so those are cotton's.
 Fabric measured_fabric(const std::string& name, double& coefficient, int& folds)
 {
     for (const ReferenceRow& row : reference_table("fabrics_cusick.csv")) {
@@ -51,7 +51,7 @@ Fabric measured_fabric(const std::string& name, double& coefficient, int& folds)
 
 Scene drape_scene(const Fabric& fabric, const Apparatus& apparatus, int across, const std::string& family)
 {
-    // The folds hang free of each other: contact between them would only be looked for.
+    // The folds do not touch each other, so contact of the cloth with itself would only cost time.
     const std::vector<std::string> choices = {fmt::format("bending.hysteresis={}", fabric.hysteresis_weft > 0),
                                               "contact.self=false"};
     Scene scene = read_scene("builtin:cusick", choices);
@@ -87,8 +87,8 @@ std::vector<Vec3> drape_to_rest(const Scene& scene, const SceneModel& model, int
     return phase.positions();
 }
 
-// Gives the overhang the beginning of so many folds: which of several stable drapes comes about then no longer hangs
-// on the mesh.
+// Adds a small ripple with this number of folds to the overhang. It selects one of several stable drapes, which would
+// otherwise depend on the mesh.
 void begin_folds(int folds, const Apparatus& apparatus, Cloth& cloth)
 {
     for (std::size_t v = 0; v < cloth.positions.size(); ++v) {
@@ -110,7 +110,7 @@ DrapeResult drape(const Fabric& fabric, const Apparatus& apparatus, int across, 
     return {100 * (shadow.area - support) / (specimen - support), shadow.folds};
 }
 
-// A disc of 30 cm with edges of this length [m].
+// Returns the number of vertices across a disc of 30 cm whose edges have this length [m].
 int across(double edge_length) { return int(std::lround(0.3 / edge_length)) + 1; }
 
 double difference(const std::vector<double>& values)
@@ -119,8 +119,9 @@ double difference(const std::vector<double>& values)
     return *most - *least;
 }
 
-// A disc has equilibria of several numbers of folds, each with its own coefficient. Which one it finds is decided by
-// the smallest of causes, so meshes are judged by drapes of the same number; how far apart the others are is told.
+// A disc has several equilibria, with different numbers of folds and drape coefficients, and tiny disturbances decide
+// which one it reaches. Meshes are therefore judged by drapes with equal numbers of folds; the differences between the
+// other drapes are reported without a verdict.
 void compare_meshes(CaseReport& report, const Fabric& cotton, const std::string& kind, int folds)
 {
     report.from(
@@ -182,7 +183,7 @@ void check_cusick(CaseReport& report)
     double coefficient = 0;
     int folds = 0;
     Fabric cotton = measured_fabric("cotton broad", coefficient, folds);
-    cotton.hysteresis_weft = cotton.hysteresis_warp = 0;  // with it a drape depends on its way
+    cotton.hysteresis_weft = cotton.hysteresis_warp = 0;  // with hysteresis a drape would depend on its history
     compare_meshes(report, cotton, "elastic, left alone", 0);
     compare_meshes(report, cotton, "elastic, begun with five folds", 5);
 }

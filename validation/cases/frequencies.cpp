@@ -14,7 +14,7 @@
 namespace selvage {
 namespace {
 
-// Frequencies of the motion along z of the free vertices, rising [rad/s].
+// Returns the frequencies of the motion of the free vertices along z, in increasing order [rad/s].
 std::vector<double> frequencies(Specimen& specimen)
 {
     State& state = specimen.state();
@@ -33,7 +33,7 @@ std::vector<double> frequencies(Specimen& specimen)
     return result;
 }
 
-// A ribbon of 1 m that hangs along -x with its upper end held, stiff in its plane.
+// A ribbon of 1 m that hangs along -x, pinned at its upper end.
 Cloth ribbon(int count)
 {
     Cloth cloth;
@@ -60,7 +60,7 @@ Params heavy_membrane()
     return params;
 }
 
-// N equal masses below each other: both edges of the ribbon are such a chain.
+// The hanging chain of N equal masses. Both edges of the ribbon are such a chain.
 void chain(CaseReport& report, int count)
 {
     constexpr double mass = 0.01;
@@ -85,8 +85,9 @@ void chain(CaseReport& report, int count)
     }
 }
 
-// A heavy chain without links: the ribbon with the masses that its cloth has. Its edges swing apart from each other,
-// the one with a third of a link's mass at its tip and the other with two thirds; their mean is the ribbon's.
+// The continuous heavy chain: the ribbon with the lumped masses of its cloth. Its two edges have different frequencies,
+// because the vertex at the tip of one has a third of a link's mass and that of the other two thirds. The mean of the
+// two frequencies is compared with the reference.
 void continuous_chain(CaseReport& report)
 {
     constexpr double areal_density = 0.2, width = 0.1;
@@ -100,7 +101,7 @@ void continuous_chain(CaseReport& report)
                         0.5 * (measured[2 * mode - 2] + measured[2 * mode - 1]), 0.01);
 }
 
-// A square that is stretched alike along both sides and held at its rim.
+// A square membrane that is stretched equally along both sides and pinned at its rim.
 void drum(CaseReport& report, const std::string& stretch)
 {
     constexpr int columns = 33;
@@ -115,7 +116,7 @@ void drum(CaseReport& report, const std::string& stretch)
     params.membrane.scale = 1;
     Specimen sheet(cloth, isotropic_fabric(100, 0, 0, 0.15), params, Solve::direct_in_plane);
     const std::vector<double> measured = frequencies(sheet);
-    // Modes 12 and 13 come twice, for both sides of the square.
+    // Modes 12 and 13 occur twice each, once for each side of the square.
     const std::pair<const char*, int> modes[] = {{"omega_11", 0}, {"omega_12", 1}, {"omega_22", 3}, {"omega_13", 4}};
     const std::string test = "membrane_square_StVK_Y100_nu0_sigma0.15_a0=1_lambda=" + stretch;
     for (const auto& [key, mode] : modes)
@@ -123,7 +124,7 @@ void drum(CaseReport& report, const std::string& stretch)
                         oscillation_reference(test, key), measured[mode], 0.01);
 }
 
-// Bending modes of a strip without gravity; nu = 0, so that its twisting modes are the only others.
+// Bending modes of a clamped strip without gravity. With nu = 0 its only other modes are those of twisting.
 void reed(CaseReport& report)
 {
     constexpr double length = 0.1, rigidity = 1e-5, areal_density = 0.15;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double gravity = 9.81, areal_density = 0.2, degree = std::numbers::pi / 180;
 
-// A cloth of the specimen's fabric and a body that it rubs on.
+// A cloth of the specimen's fabric and the body on which it slides.
 struct Contact {
     ClothModel model;
     PhaseOptions options;
@@ -38,7 +38,7 @@ struct Contact {
     }
 };
 
-// The gap at which the barrier bears a pressure [m].
+// Returns the gap at which the barrier balances a pressure [m].
 double resting_gap(const Params& params, double pressure)
 {
     double low = 0.02, high = 1;  // of the contact gap
@@ -61,7 +61,8 @@ struct Slide {
     double creep = 0;         // [m/s]
 };
 
-// Means over the second half of a second. Gravity is tilted instead of the plane, which falls towards +x.
+// Returns means over the second half of a run of 1 s. Gravity is tilted instead of the plane, so that the patch slides
+// towards +x.
 Slide slide_down(double angle, double friction, const char* scheme)
 {
     Body plane;
@@ -111,8 +112,8 @@ void check_incline(CaseReport& report, const char* scheme)
 constexpr double radius = 0.1, width = 0.01, arc_step = 3 * degree, lead = 0.25,
                  pull_speed = 0.02;  // [m], [rad], [m/s]
 
-// A strip wrapped around the cylinder about y by an angle, tangent at both ends; its rest length is shorter by the
-// strain.
+// A strip wrapped by an angle around the cylinder along y, continued by a straight piece at both ends. It is stretched
+// by the given strain.
 Cloth wrapped_strip(double wrap, double strain, double gap)
 {
     const double r = radius + gap, arc = r * wrap, step = r * arc_step;
@@ -146,7 +147,8 @@ double pull_on(const State& state, int v, int w)
     return force.norm();
 }
 
-// Ratio of the tensions at both ends while the strip slides; the mean over the time in which it moves on by one edge.
+// Returns the ratio of the tensions at the two ends of the sliding strip, averaged over the time in which it moves by
+// one edge length.
 double capstan_ratio(double wrap, double friction)
 {
     Body cylinder;
@@ -173,15 +175,15 @@ double capstan_ratio(double wrap, double friction)
     for (int step = 0; step < (edges_before + 1) * steps_per_edge; ++step) {
         for (double left = dt; left > 1e-9;) left -= control.advance(left, newton, true);
         if (step < edges_before * steps_per_edge) continue;
-        phase.newton().static_residual();  // leaves the forces behind
+        phase.newton().static_residual();  // stores the forces in the state
         slack_side += pull_on(phase.state(), 0, columns);
         tight_side += pull_on(phase.state(), columns - 1, 2 * columns - 1);
     }
     return tight_side / slack_side;
 }
 
-// Where the slack side bears a five-hundredth of the tight one, its tension is as small as what the steps leave
-// unsolved.
+// The largest ratio of tensions that is judged [1]. At a ratio of 500 the tension of the slack side is as small as the
+// residual that the steps leave.
 constexpr double measurable = 100;
 
 void check_capstan(CaseReport& report)

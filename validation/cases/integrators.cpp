@@ -1,4 +1,4 @@
-// Motion in time: integrators against oscillation_references.csv, their orders, and what they must conserve.
+// The integrators: oscillation_references.csv, their orders of convergence, and the quantities that they must conserve.
 #include <cmath>
 #include <memory>
 #include <string_view>
@@ -15,7 +15,7 @@
 namespace selvage {
 namespace {
 
-// Amplitude and frequency that a scheme shows for a mass on a spring with omega = 10 rad/s.
+// The amplitude factor per step and the frequency of each scheme for a mass on a spring with omega = 10 rad/s.
 void step_factors(CaseReport& report)
 {
     const std::string test = "integrator_undamped_k100";
@@ -31,7 +31,7 @@ void step_factors(CaseReport& report)
             std::vector<double> motion;
             for (int k = 0; k < 1000; ++k) {
                 oscillator.step(dt);
-                if (k >= 30) motion.push_back(oscillator.height());  // the first step of BDF2 dies out
+                if (k >= 30) motion.push_back(oscillator.height());  // the effect of BDF2's first step has decayed
             }
             const StepFactor factor = fit_step_factor(motion, dt);
             const std::string key = std::string(reference) + "_omega_dt=" + label;
@@ -58,8 +58,9 @@ void damped(CaseReport& report)
     }
 }
 
-// A mass of 1 kg on a spring of 1 m and 100 N/m, let go at 30 degrees: a triangle of which one side is that spring, the
-// others have no force, and two corners are held. Rows with a damper in the spring have no counterpart here.
+// A mass of 1 kg on a spring of 1 m and 100 N/m, released at 30 degrees. It is a triangle with two pinned corners: one
+// of its sides acts as the spring, and the others carry no force. The table's rows with a damper in the spring cannot
+// be modelled and are left out.
 class ElasticPendulum {
 public:
     explicit ElasticPendulum(std::string_view integrator)
@@ -119,7 +120,7 @@ void elastic_pendulum(CaseReport& report)
     }
 }
 
-// Mean energy over windows at both ends of 1e5 steps of a motion far beyond the linear range.
+// Compares the mean energies at the start and at the end of 1e5 steps of a motion far beyond the linear range.
 void long_run(CaseReport& report)
 {
     Oscillator oscillator("velocity_verlet", 10, 0, 0.3);
@@ -158,7 +159,8 @@ struct Sheet {
     }
 };
 
-// log2 of how much the change falls from one doubling of the steps to the next: no other solution is needed.
+// Returns the observed order of convergence: log2 of the ratio of the changes from two successive doublings of the
+// number of steps. It needs no reference solution.
 double observed_order(std::string_view name, int steps)
 {
     std::vector<std::vector<Vec3>> ends;
@@ -194,7 +196,7 @@ void free_fall(CaseReport& report, const IntegratorInfo& info)
     Sheet sheet;
     sheet.options.params.gravity.acceleration_z = -9.81;
     Phase phase = sheet.phase();
-    // Explicit schemes would multiply rounding errors at steps above their stability limit.
+    // Steps above the stability limit of an explicit scheme would amplify rounding errors.
     const double mass = 0.2 * 0.15 * 0.15, dt = info.is_explicit ? 1e-3 : 1e-2;
     sheet.run(phase, info.name, dt, int(std::lround(1 / dt)));
     report.from(
@@ -221,7 +223,7 @@ void rotation(CaseReport& report, const IntegratorInfo& info)
                     (momentum(phase.state(), false) - linear).norm() / linear.norm(), 1e-9);
     const double turned = momentum(phase.state(), true).z();
     const double total = phase.newton().kinetic_energy() + phase.newton().potential_energy();
-    // Central differences know the velocity to second order only, the others damp or gain.
+    // Central differences give the velocity to second order only; the other schemes lose or gain angular momentum.
     const bool keeps_spin =
         info.name == "implicit_midpoint" || info.name == "velocity_verlet" || info.name == "symplectic_euler";
     if (!keeps_spin) {
@@ -235,7 +237,7 @@ void rotation(CaseReport& report, const IntegratorInfo& info)
         report.relative(fmt::format("{}: free spinning sheet, energy [J]", info.name), energy, total, 1e-3);
 }
 
-// Vertices that are sewn become one particle: nothing may be gained or lost.
+// Joining sewn vertices to one particle must conserve mass, momentum and the centre of mass.
 void joining(CaseReport& report)
 {
     Cloth cloth = flat_rectangle("irregular", 0.3, 0.2, 7);

@@ -9,9 +9,9 @@ struct ValidationRow {
     std::string group, quantity;
     double reference = 0, measured = 0;
     double error = 0;
-    double tolerance = 0;  ///< NaN: information only, there is no verdict.
+    double tolerance = 0;  ///< NaN: for information only, without a verdict.
     bool pass = true;
-    std::string source;  ///< Where the reference comes from.
+    std::string source;  ///< The source of the reference value.
 
     bool judged() const { return tolerance == tolerance; }
 };
@@ -19,20 +19,20 @@ struct ValidationRow {
 /// Collects the rows of one group of cases.
 class CaseReport {
 public:
-    /// @param quick  leave out what takes long
+    /// @param quick  cases should leave out their slow parts
     CaseReport(std::string group, bool quick) : group_(std::move(group)), quick_(quick) {}
 
-    /// The source of all rows that follow.
+    /// Sets the source of all rows that follow.
     void from(const std::string& source) { source_ = source; }
-    /// Passes if |measured - reference| <= tolerance |reference|.
+    /// Adds a row that passes if |measured - reference| <= tolerance |reference|.
     void relative(const std::string& quantity, double reference, double measured, double tolerance);
-    /// Passes if |measured - reference| <= tolerance.
+    /// Adds a row that passes if |measured - reference| <= tolerance.
     void absolute(const std::string& quantity, double reference, double measured, double tolerance);
-    /// An error that was measured elsewhere; passes if error <= tolerance.
+    /// Adds a row with an error that the caller has computed; it passes if error <= tolerance.
     void judge(const std::string& quantity, double reference, double measured, double error, double tolerance);
-    /// A relative error without a verdict.
+    /// Adds a row with a relative error but without a verdict.
     void inform(const std::string& quantity, double reference, double measured);
-    /// A case that ended with an exception.
+    /// Adds a failing row for a case that ended with an exception.
     void fail(const std::string& reason);
 
     bool quick() const { return quick_; }
@@ -44,11 +44,11 @@ private:
     std::vector<ValidationRow> rows_;
 };
 
-/// The rows as a table of text.
+/// Returns the rows as a table of text.
 std::string validation_table(const std::vector<ValidationRow>& rows);
 
-/// The rows as JSON text: {"cases": [{case, quantity, reference, measured, error, tolerance, pass, source}]}.
-/// A row without a verdict has the tolerance null.
+/// Returns the rows as JSON text: {"cases": [{case, quantity, reference, measured, error, tolerance, pass, source}]}.
+/// The tolerance of a row without a verdict is null.
 std::string validation_json(const std::vector<ValidationRow>& rows);
 
 }  // namespace selvage

@@ -1,5 +1,5 @@
-// The bending rigidity that a mesh shows: cylinders of small curvature whose vertices inside are free to find their
-// own place, and strips under small loads.
+// The effective bending rigidity of meshes: sheets bent to cylinders of small curvature, whose inner vertices are free
+// to move to equilibrium, and strips under small loads.
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -18,15 +18,16 @@ namespace selvage {
 namespace {
 
 constexpr double directions[] = {0, 22.5, 45, 67.5, 90};  // [degrees]
-constexpr int columns = 48, window = 24, band = 4;        // cells: of the sheet, of what is measured, held at the rim
-constexpr double curvature = 1e-3;                        // so small that angles are those of a flat plate [1/m]
+constexpr int columns = 48, window = 24, band = 4;  // cells: of the sheet, of the measured window, pinned at the rim
+constexpr double curvature = 1e-3;                  // small enough for the theory of flat plates [1/m]
 
 double row_height(const std::string& family)
 {
     return (family == "equilateral" ? 0.5 * std::numbers::sqrt3 : 1.0) / columns;
 }
 
-// Energy of the hinges whose middle lies in the window, which spans whole periods of the regular families.
+// Returns the energy of the hinges whose middle lies in the window. The window spans whole periods of the regular mesh
+// families.
 double window_energy(const State& s, const std::vector<Vec2>& rest, double row)
 {
     const int hs = s.size.hinge_stride;
@@ -48,7 +49,7 @@ double window_energy(const State& s, const std::vector<Vec2>& rest, double row)
     return total;
 }
 
-// Moves the vertices inside to the lowest energy.
+// Moves the inner vertices to the minimum of the energy.
 void relax_inside(Specimen& sheet, const std::vector<Vec2>& rest, double row)
 {
     const SparseMatrix whole = exact_stiffness(sheet.state(), sheet.params());
@@ -73,7 +74,8 @@ void relax_inside(Specimen& sheet, const std::vector<Vec2>& rest, double row)
     }
 }
 
-// D of a sheet bent to a cylinder whose curved direction makes this angle with weft; the fabric's is 1.
+// Returns the effective rigidity D of a sheet bent to a cylinder whose curved direction makes this angle with weft. The
+// fabric's D is 1.
 double shown_rigidity(const std::string& family, double angle, bool plate)
 {
     const double row = row_height(family);
@@ -102,7 +104,7 @@ double hinge_rigidity(const std::string& mesh, double angle)
     throw std::runtime_error("hinge_effective_bending.csv has no mesh " + mesh);
 }
 
-// Drop of the free end over w L^4 / (8 D) under a load so small that the elastica is a beam.
+// Returns the drop of the free end divided by w L^4 / (8 D), under a load so small that linear beam theory holds.
 double tip_drop(const std::string& family)
 {
     constexpr double length = 0.1, weight = 9.81 * 0.15, gamma = 0.01,

@@ -21,7 +21,7 @@ Mat2 matrix(const ReferenceRow& row, const std::string& name)
     return m;
 }
 
-// The fabric of a model of the table.
+// Returns the fabric of a material model of the table.
 Fabric fabric_of(const ReferenceRow& row)
 {
     if (row.text("model") == "stvk") return isotropic_fabric(stiffness, 0, row.number("nu"), 1);
@@ -36,7 +36,7 @@ struct Mismatch {
     double force = 0, energy = 0;  // relative
 };
 
-// Vertices of the edge on which x (axis 0) or y (axis 1) is largest.
+// Returns the vertices of the edge on which x (axis 0) or y (axis 1) is largest.
 std::vector<int> far_edge(const Cloth& cloth, int axis)
 {
     std::vector<int> edge;
@@ -51,7 +51,7 @@ bool on_rim(const Vec2& x, bool ends_only)
     return end || (!ends_only && std::abs(x.y()) > 0.5 * height - 1e-9);
 }
 
-// Holds the rim (or its two ends) in the strained place and lets everything else find its own.
+// Pins the rim (or two of its sides) at the strained positions and moves all other vertices to equilibrium.
 Mismatch patch(const ReferenceRow& row, const Fabric& fabric)
 {
     const Mat2 strain = matrix(row, "F"), stress = matrix(row, "P");
@@ -74,7 +74,7 @@ Mismatch patch(const ReferenceRow& row, const Fabric& fabric)
         const double side = axis == 0 ? height : width;
         Vec3 total = Vec3::Zero();
         for (const int v : far_edge(cloth, axis)) total += sheet.holding_force(v);
-        // The free side bears no load; its corners belong to the held ends.
+        // A free side carries no load; its corners belong to the pinned sides.
         if (axis == 1 && free_sides) continue;
         const Vec2 expected = side * stress.col(axis);
         mismatch.force = std::max(mismatch.force, (total.head<2>() - expected).norm() / (side * stress.norm()));

@@ -21,7 +21,7 @@ inline void add_panel(Cloth& cloth, const Cloth& panel, const Vec3& at)
     cloth.panels.back().first_face = first_face;
 }
 
-/// A square panel with a slit of one cell's width from an edge to its middle: it is not convex.
+/// A square panel with a slit of one cell's width from an edge to its middle, so that it is not convex.
 inline Cloth slit_cloth(int side, double spacing)
 {
     Cloth cloth = grid_cloth(side, side, spacing);
@@ -44,8 +44,9 @@ inline TriangleMesh box_mesh(const Vec3& low, const Vec3& size)
     return mesh;
 }
 
-/// Random smooth displacements of points of a cloth: waves of its rest coordinates, of the given size [m] at most
-/// about.
+/// Returns random smooth displacements of the vertices of a cloth: a sum of waves over its rest coordinates.
+/// @param size     approximate largest displacement [m]
+/// @param longest  approximate longest wavelength [m]
 inline std::vector<Vec3> random_waves(const Cloth& cloth, double size, double longest, std::mt19937& random)
 {
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -62,7 +63,7 @@ inline std::vector<Vec3> random_waves(const Cloth& cloth, double size, double lo
     return result;
 }
 
-/// Component planes of points, with a stride.
+/// Returns points as component planes: component c of point v is at [c * stride + v].
 inline std::vector<real> as_planes(const std::vector<Vec3>& points, int stride)
 {
     std::vector<real> planes(3 * std::size_t(stride));
@@ -71,7 +72,7 @@ inline std::vector<real> as_planes(const std::vector<Vec3>& points, int stride)
     return planes;
 }
 
-/// The points of component planes.
+/// Returns the points of component planes.
 inline std::vector<Vec3> as_points(const std::vector<real>& planes, int stride, int count)
 {
     std::vector<Vec3> points(static_cast<std::size_t>(count));

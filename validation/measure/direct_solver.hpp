@@ -5,9 +5,10 @@
 
 namespace selvage {
 
-/// Solves by a sparse Cholesky factorisation, so that small systems of any stiffness reach rounding error. Where the
-/// matrix is not positive definite it is shifted until it is, which turns Newton's step towards the gradient.
-/// @param plane  the unknowns along z are left out: the cloth stays in its plane
+/// Makes a solver by sparse Cholesky factorisation, with which small systems of any stiffness reach rounding error. A
+/// matrix that is not positive definite is shifted by a multiple of the identity until it is, which turns Newton's step
+/// towards the negative gradient.
+/// @param plane  true: the unknowns along z are left out, so that the cloth stays in its plane
 std::unique_ptr<LinearSolver> make_direct_solver(bool plane);
 
 }  // namespace selvage

@@ -7,7 +7,7 @@
 namespace selvage {
 namespace {
 
-// Squares whose middles are covered.
+// The squares of a grid whose middles are covered by a projected face.
 struct Raster {
     Vec2 low;
     double cell;
@@ -48,7 +48,7 @@ struct Raster {
     }
 };
 
-// Distance of the outline from the origin in equal steps of the angle.
+// Returns the distance of the outline from the origin at equally spaced angles.
 std::vector<double> outline(const Raster& raster)
 {
     std::vector<double> radius(720);
@@ -62,7 +62,8 @@ std::vector<double> outline(const Raster& raster)
     return radius;
 }
 
-// Upward crossings of the mean, with a band around it that ripples must leave to count.
+// Counts the upward crossings of the mean radius. A crossing counts only if it leaves a band around the mean, so that
+// small ripples are ignored.
 int count_folds(const std::vector<double>& radius)
 {
     const auto [least, most] = std::minmax_element(radius.begin(), radius.end());
@@ -72,7 +73,7 @@ int count_folds(const std::vector<double>& radius)
     int folds = 0;
     bool outside = radius.back() > mean;
     for (int round = 0; round < 2; ++round) {
-        folds = 0;  // the first round only finds the state in which the second one starts
+        folds = 0;  // the first round only finds the value of `outside` with which the second one starts
         for (const double r : radius) {
             if (!outside && r > mean + band) ++folds;
             if (r > mean + band) outside = true;

@@ -7,9 +7,9 @@
 namespace selvage {
 namespace {
 
-// The force of contact at state.pos with weights and normals as they stand in the state.
+// Returns the force of contact at state.pos with the weights and normals that the state already holds.
 template <auto Force, class Args>
-std::vector<real> force_in_kept_frames(State& state, double stiffness)
+std::vector<real> force_with_fixed_normals(State& state, double stiffness)
 {
     Args a{};
     a.size = state.size;
@@ -83,13 +83,14 @@ Eigen::MatrixXd differenced_stiffness(const Term& term, State& state, const Para
     const std::vector<int> dofs = active_dofs(state);
     Eigen::MatrixXd stiffness(dofs.size(), dofs.size());
     const bool contact = term.name == "cloth_contact", repulsion = term.name == "cloth_repulsion";
-    if (contact || repulsion) term_force(term, state, params);  // finds the frames
+    if (contact || repulsion) term_force(term, state, params);  // stores the pairs' weights and normals in the state
     const auto force = [&] {
         if (contact)
-            return force_in_kept_frames<cloth_contact_force, cloth_contact_args>(state, params.cloth_contact.stiffness);
+            return force_with_fixed_normals<cloth_contact_force, cloth_contact_args>(state,
+                                                                                     params.cloth_contact.stiffness);
         if (repulsion)
-            return force_in_kept_frames<cloth_repulsion_force, cloth_repulsion_args>(state,
-                                                                                     params.cloth_repulsion.stiffness);
+            return force_with_fixed_normals<cloth_repulsion_force, cloth_repulsion_args>(
+                state, params.cloth_repulsion.stiffness);
         return term_force(term, state, params);
     };
     for (int j = 0; j < int(dofs.size()); ++j) {

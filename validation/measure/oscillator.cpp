@@ -10,7 +10,7 @@
 namespace selvage {
 namespace {
 
-constexpr int middle = 4;                                     // of the nine vertices
+constexpr int middle = 4;                                     // index of the free one of nine vertices
 constexpr double spacing = 10, stiffness = 1, stretch = 1.1;  // [m], [N/m], [1]
 
 ClothModel small_membrane(double drag)

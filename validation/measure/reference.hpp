@@ -8,8 +8,8 @@
 
 namespace selvage {
 
-/// The files of validation/reference, which are built into the program. Each says in its first lines where its
-/// numbers come from.
+/// Returns the files of validation/reference, which are built into the program. The first lines of each file give the
+/// source of its numbers.
 std::span<const PresetFile> reference_files();
 
 /// A row of a reference table: its cells by the names in the table's head.
@@ -25,12 +25,12 @@ private:
     std::map<std::string, std::string> cells_;
 };
 
-/// Reads a table: lines that start with # are comments, the first other line names the columns.
+/// Reads a reference table. Lines that start with # are comments; the first other line names the columns.
 /// @param name  file name without folder, such as `catenary_cases.csv`
 /// @throws std::runtime_error if there is no such file
 std::vector<ReferenceRow> reference_table(const std::string& name);
 
-/// The value of a row of oscillation_references.csv.
+/// Returns the value of a row of oscillation_references.csv.
 /// @throws std::runtime_error if there is no such row
 double oscillation_reference(const std::string& test, const std::string& key);
 

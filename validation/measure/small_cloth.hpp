@@ -11,7 +11,7 @@
 
 namespace selvage {
 
-/// Parameters with every strength set to one, so that every term is active.
+/// Returns parameters with every strength set to one, so that every term is active.
 inline Params unit_strengths()
 {
     Params params;
@@ -60,7 +60,7 @@ inline Cloth grid_cloth(int columns, int rows, double spacing = 0.1)
     return cloth;
 }
 
-/// An orthotropic fabric of order one, so that no term hides behind another in a test.
+/// An orthotropic fabric whose properties are all of order one, so that no term is negligible in a test.
 inline FabricTable test_fabrics()
 {
     Fabric fabric;
@@ -90,7 +90,7 @@ inline FabricTable curved_fabrics()
     return fabrics;
 }
 
-/// The corners of a pair of the state [m].
+/// Returns the positions of the corners of a pair [m].
 inline PairCorners pair_corners(const State& state, int pair)
 {
     PairCorners x;
@@ -103,7 +103,7 @@ inline PairCorners pair_corners(const State& state, int pair)
     return x;
 }
 
-/// Lists the pairs around each vertex, as contact does when it lists pairs.
+/// Fills the list of pairs around each vertex, which contact does otherwise.
 inline void list_pair_slots(State& state)
 {
     int count = 0;
@@ -116,8 +116,8 @@ inline void list_pair_slots(State& state)
     }
 }
 
-/// Lets pairs of a grid of 4 x 4 vertices be in contact, each with a gap of its own around its distance: a vertex and a
-/// face, two edges, and, if asked for, a face and an edge with a body. Half of them stick, half of them slide.
+/// Adds pairs in contact to a grid of 4 x 4 vertices: a vertex and a face, two edges, and, if `touches_body`, a face
+/// and an edge with a body. The contact gap of each pair is near its distance. Half of the pairs stick and half slide.
 inline void add_contacts(State& state, const Params& params, bool touches_body, std::mt19937& random)
 {
     std::uniform_real_distribution<real> uniform(-1, 1);
@@ -127,7 +127,7 @@ inline void add_contacts(State& state, const Params& params, bool touches_body, 
     state.set_pairs(count);
     state.set_body_points(touches_body ? 3 : 0);
     const int ps = state.size.pair_stride, bs = state.size.body_point_stride;
-    // The first corner near the face 6 7 11, the others across the edge 8 13.
+    // The first body point is near the face 6 7 11; the other two form an edge across the edge 8 13.
     const double across[3][3] = {{0.26, 0.13, 0.03}, {0.02, 0.22, -0.05}, {0.09, 0.3, 0.07}};
     for (int k = 0; k < state.size.body_point_count; ++k)
         for (int c = 0; c < 3; ++c) state.body_point[c * bs + k] = across[k][c];

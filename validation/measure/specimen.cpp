@@ -19,7 +19,7 @@ std::unique_ptr<LinearSolver> make_solver(const State& state, Solve solve)
     return make_direct_solver(solve == Solve::direct_in_plane);
 }
 
-// The vertices on the left edge, from below.
+// Returns the vertices on the left edge, from the bottom up.
 std::vector<int> left_rim(const Cloth& cloth)
 {
     std::vector<int> rim;
@@ -88,7 +88,7 @@ void Specimen::balance(double tolerance)
         last.tolerance = tolerance;
         residual = newton_->relax(last).residual;
     }
-    newton_->static_residual();  // leaves the forces of the final state behind
+    newton_->static_residual();  // stores the forces of the final state
     if (!(residual <= tolerance))
         throw std::runtime_error(fmt::format("no equilibrium: residual {:.2e}, wanted {:.0e}", residual, tolerance));
 }

@@ -9,7 +9,7 @@
 
 namespace selvage {
 
-/// The name under which a specimen's only fabric stands.
+/// The name of a specimen's only fabric.
 inline constexpr const char* specimen_fabric = "test";
 
 /// A fabric that is an isotropic plate and an isotropic membrane.
@@ -20,11 +20,11 @@ Fabric isotropic_fabric(double stiffness, double rigidity, double poisson, doubl
 
 enum class Solve { direct, direct_in_plane, iterative };
 
-/// A small cloth with its forces and Newton's method, as a run would have them.
+/// A small cloth with the forces and the Newton solver that a run would have.
 class Specimen {
 public:
     /// @param cloth   its panel's fabric is specimen_fabric
-    /// @param params  terms that act
+    /// @param params  strengths of the terms
     Specimen(const Cloth& cloth, const Fabric& fabric, const Params& params, Solve solve = Solve::direct);
 
     State& state() { return state_; }
@@ -33,15 +33,17 @@ public:
 
     Vec3 position(int vertex) const;
     void place(int vertex, const Vec3& position);
-    /// Gradient of the energy on a vertex: the force that holds it in balance [N]. Call after balance().
+    /// Returns the gradient of the energy at a vertex: the external force that holds it in equilibrium [N]. Call after
+    /// balance().
     Vec3 holding_force(int vertex) const;
 
-    /// Finds the static equilibrium: implicit steps from rest, each longer than the one before, then Newton's method
-    /// on the energy.
+    /// Finds the static equilibrium by implicit steps from rest, each longer than the one before, and then by Newton's
+    /// method on the energy.
     /// @param tolerance  residual to reach, relative to the weight
     /// @throws std::runtime_error if it is not reached
     void balance(double tolerance);
-    /// The same with a membrane that starts soft and grows as stiff as it is: a stiff one takes long to find its way.
+    /// The same, but the membrane's stiffness is increased from a small value to its own in several stages, because a
+    /// stiff membrane converges slowly from a distant start.
     void balance_from_soft(double tolerance);
 
 private:
@@ -52,7 +54,7 @@ private:
     std::unique_ptr<Newton> newton_;
 };
 
-/// The panel of a cloth that is all of specimen_fabric.
+/// Returns a panel of specimen_fabric that covers the whole cloth.
 ClothPanel one_panel(const Cloth& cloth);
 
 /// A rectangle of one of rectangle_families(), lying in the plane z = 0 from (0, -height/2) to (width, height/2).

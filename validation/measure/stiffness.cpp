@@ -16,13 +16,13 @@ void add_elements(int corners, int count, int stride, const Vertices& vertex, co
                     const int va = 3 * vertex[a * stride + e], vb = 3 * vertex[b * stride + e];
                     to.emplace_back(va + c / 3, vb + c % 3, k);
                     to.emplace_back(vb + c % 3, va + c / 3, k);
-                    // Rigid motions carry no force, so the diagonal is minus the row sum.
+                    // Translations cause no force, so each diagonal block is minus the sum of the others in its row.
                     to.emplace_back(va + c / 3, va + c % 3, -k);
                     to.emplace_back(vb + c % 3, vb + c / 3, -k);
                 }
 }
 
-// The blocks weight_a weight_b K of pairs in contact.
+// Adds the blocks weight_a weight_b K of pairs in contact.
 void add_pairs(const State& state, Triplets& entries)
 {
     const int ps = state.size.pair_stride;
