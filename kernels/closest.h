@@ -50,7 +50,8 @@ KERNEL_FN pair_weights closest_edge_edge(vec3 p0, vec3 p1, vec3 q0, vec3 q1)
     vec3 u = p1 - p0, v = q1 - q0, r = p0 - q0;
     real a = dot(u, u), e = dot(v, v), f = dot(v, r), c = dot(u, r), b = dot(u, v);
     real determinant = a * e - b * b;
-    // The system is singular for parallel segments: s = 0 is then as good as any other point of their overlap.
+    // The system is singular for parallel segments, here those at an angle with a sine below 1e-6. The point at s = 0
+    // is then as good as any other.
     real s = determinant > REAL(1e-12) * a * e ? unit_interval((b * f - c * e) / determinant) : REAL(0);
     real t = (b * s + f) / e;
     if (t < REAL(0)) s = unit_interval(-c / a);

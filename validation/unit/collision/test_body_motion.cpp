@@ -73,7 +73,7 @@ std::shared_ptr<BodyMotion> tumble()
         true, pivot);
 }
 
-// A ball that swells to an egg in one second.
+// The motion of a ball that stretches to an egg within one second.
 std::shared_ptr<BodyMotion> swelling(const TriangleMesh& ball)
 {
     auto motion = std::make_shared<BodyMotion>(std::vector<MotionKey>{}, false, Vec3::Zero());
@@ -105,7 +105,7 @@ TEST_CASE("a body passes through its keyframes and stays at the last")
     CHECK((motion->placement(9).matrix() - motion->placement(1.5).matrix()).norm() == 0);
 }
 
-TEST_CASE("bounds of a body's way hold for every vertex")
+TEST_CASE("the bound of a body's displacement holds for every vertex and is at most twice the largest")
 {
     const TriangleMesh ball = sphere_mesh({0.2, 0, 0.1}, 0.3, 3);
     Box box;
@@ -122,7 +122,7 @@ TEST_CASE("bounds of a body's way hold for every vertex")
         }
 }
 
-TEST_CASE("a moved mesh answers as the same mesh that was made there")
+TEST_CASE("queries of a moved mesh have the answers of the same mesh built at its new position")
 {
     const TriangleMesh tube = capsule_mesh({-0.2, 0, 0}, {0.3, 0.1, 0}, 0.15), ball = sphere_mesh({0, 0, 0}, 0.3, 3);
     for (const Body& body : {body_of(tube, tumble()), body_of(ball, swelling(ball))}) {
@@ -166,7 +166,7 @@ TEST_CASE("queries that are skipped while bodies move do not change the answers"
     CHECK(walking.counts().skipped > walking.counts().made);
 }
 
-TEST_CASE("what goes with a body's surface moves at the surface's velocity")
+TEST_CASE("the surface velocity of a body is that of the material points of its surface")
 {
     const TriangleMesh ball = sphere_mesh({0, 0, 0}, 0.3, 4);
     auto spin = std::make_shared<BodyMotion>(std::vector<MotionKey>{{}, {1, Vec3(0.5, 0, 0), Vec3(0, 0, 2)}}, false,
@@ -186,7 +186,7 @@ TEST_CASE("what goes with a body's surface moves at the surface's velocity")
     CHECK(growing.surface_velocity(0, points[0], dt).norm() < 5e-3);
 }
 
-TEST_CASE("ways into bodies are those relative to the moving body")
+TEST_CASE("crossings of a moving body are those of the paths relative to the body")
 {
     Body ball;
     ball.kind = Body::Kind::sphere;
@@ -199,7 +199,8 @@ TEST_CASE("ways into bodies are those relative to the moving body")
     for (const Body& body : {ball, mesh}) {
         BodyQuery query({body}, everywhere);
         query.move_to(0.3);
-        // One that stands still is met, one that flees is not, and one that the body has passed by was met as well.
+        // The first point moves little and the body reaches it, the second moves away faster than the body, and the
+        // third is at rest and the body passes over it.
         const Answers from({{0.2, 0, 0}, {0.2, 0, 0}, {0.15, 0.01, 0}}),
             to({{0.25, 0, 0}, {0.5, 0, 0}, {0.15, 0.01, 0}});
         const auto found = query.crossings(from.position.data(), to.position.data(), from.stride, from.count);
@@ -207,12 +208,12 @@ TEST_CASE("ways into bodies are those relative to the moving body")
         CHECK(found[1].body == -1);
         CHECK(found[2].body == 0);
         CHECK(found[0].way_beyond == Approx(0.15).margin(1e-3));
-        query.move_to(0.3);  // nothing moves: paths are as given
+        query.move_to(0.3);  // the body does not move, so the relative paths are the given ones
         CHECK(query.crossings(from.position.data(), to.position.data(), from.stride, from.count)[2].body == -1);
     }
 }
 
-TEST_CASE("no step takes a body further than asked")
+TEST_CASE("the longest step is the one that moves no body further than the given distance")
 {
     BodyQuery query({body_of(sphere_mesh({0, 0, 0}, 0.3, 3), tumble())}, everywhere);
     CHECK(query.longest_step(2, 0.5, 0.01) == 0.5);

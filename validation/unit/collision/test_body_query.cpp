@@ -420,7 +420,7 @@ TEST_CASE("skipped queries change no answer over a random walk, on any number of
     CHECK(walking.counts().skipped > walking.counts().made);
 }
 
-TEST_CASE("a small reach uses fewer triangles, gives the same answers, and widens when left", "[body]")
+TEST_CASE("a small reach uses fewer triangles, gives the same answers, and grows when points leave it", "[body]")
 {
     const std::vector<Body> bodies{mesh_body(sphere_mesh(Vec3::Zero(), 0.3, 4))};
     BodyQuery whole(bodies, everywhere), part(bodies, Box(Vec3(-0.2, -0.2, 0.1), Vec3(0.2, 0.2, 0.5)));
@@ -444,7 +444,7 @@ TEST_CASE("a small reach uses fewer triangles, gives the same answers, and widen
     CHECK(a.normal == b.normal);
 }
 
-TEST_CASE("bodies of closed form need no ray tracing library, and no bodies no answer", "[body]")
+TEST_CASE("bodies of closed form need no ray tracing library, and without bodies no contact is found", "[body]")
 {
     CHECK_FALSE(BodyQuery({sphere_body(1)}, everywhere).uses_embree());
     CHECK(BodyQuery({mesh_body(box_mesh({1, 1, 1}))}, everywhere).uses_embree());

@@ -23,7 +23,7 @@ private:
     std::uniform_real_distribution<double> uniform_{-1, 1};
 };
 
-// The least distance between points of the two sides, over a lattice of both.
+// Returns the least distance between the points of a lattice on either side.
 double sampled_distance(const PairCorners& x, bool edges, int steps = 120)
 {
     double least = 1e30;
@@ -48,9 +48,9 @@ pair_weights weights(const PairCorners& x, bool edges)
     return edges ? closest_edge_edge(at(0), at(1), at(2), at(3)) : closest_point_face(at(0), at(1), at(2), at(3));
 }
 
-// The closest points are points of the two sides, and no sample of these is closer. Samples are dense enough that one
-// of them is nearly as close. Edges that cross at a sine below 1e-6 are taken for parallel, which costs that part of
-// them.
+// Checks that the closest points belong to the two sides, that no pair of samples is closer, and that one is nearly as
+// close, since the samples are dense. Edges whose angle has a sine below 1e-6 are treated as parallel; the error of
+// that is at most `parallel_sine` times their length.
 void check_closest(const PairCorners& x, bool edges, double parallel_sine = 0)
 {
     const pair_weights p = weights(x, edges);
@@ -107,7 +107,8 @@ TEST_CASE("closest points of slivers and of parallel and nearly parallel edges a
     }
 }
 
-TEST_CASE("closest points at corners and on edges of a face belong to these", "[closest]")
+TEST_CASE("the closest point of a face is a corner, on an edge or inside, depending on where the vertex is",
+          "[closest]")
 {
     const PairCorners face{Vec3(-1, -1, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     const auto expect = [&](const Vec3& x, double a, double b, double c) {
@@ -127,7 +128,7 @@ TEST_CASE("closest points at corners and on edges of a face belong to these", "[
     expect({0.2, 0.3, 5}, 0.5, 0.2, 0.3);
 }
 
-TEST_CASE("on the free part of a move no pair comes nearer than what is to be kept", "[closest]")
+TEST_CASE("on the free fraction of a move no pair comes nearer than the distance to keep", "[closest]")
 {
     Corners corners(4);
     int cut = 0;
@@ -147,7 +148,7 @@ TEST_CASE("on the free part of a move no pair comes nearer than what is to be ke
     CHECK(cut > 40);
 }
 
-TEST_CASE("a move that meets head on is free for nearly all of its way", "[closest]")
+TEST_CASE("a head-on approach is free for at least 85 % of the allowed distance", "[closest]")
 {
     Corners corners(5);
     for (int trial = 0; trial < 100; ++trial) {
@@ -156,7 +157,7 @@ TEST_CASE("a move that meets head on is free for nearly all of its way", "[close
         const PairCorners edges{Vec3(-1, 0, height), Vec3(1, 0, height), Vec3(0, -1, 0), Vec3(0, 1, 0)};
         const Vec3 down(0, 0, -length), none = Vec3::Zero();
         const double allowed = (1 - keep) * height / length;
-        for (double shift : {0.0, 5.0}) {  // what both sides have in common does not count
+        for (double shift : {0.0, 5.0}) {  // a common displacement of both sides must not matter
             const Vec3 common(shift, -shift, 2 * shift);
             const double of_face = free_part(face, {down + common, none + common, none + common, none + common}, false);
             const double of_edges =

@@ -11,12 +11,13 @@ using namespace selvage;
 
 namespace {
 
-constexpr double spacing = 0.02, reach = 0.15 * spacing;  // below a quarter of what lies between unlike parts of a face
+// The reach is below a quarter of the distance between the vertices and the opposite edges of a face.
+constexpr double spacing = 0.02, reach = 0.15 * spacing;
 constexpr int side = 9;
 
 using Key = std::pair<bool, std::array<int, 4>>;
 
-// The same key whichever way the corners of a face or edge, or two edges, are named.
+// Returns a key that does not depend on the order of the corners of a face or edge, or on the order of two edges.
 Key key_of(PairCandidate c)
 {
     if (c.edges) {
@@ -30,7 +31,7 @@ Key key_of(PairCandidate c)
     return {c.edges, c.corner};
 }
 
-// Sheets and bodies with every pair of primitives that a tree has to tell apart.
+// Sheets and bodies, with a list of all pairs of primitives that can be in contact.
 struct Sheets {
     Cloth cloth;
     TreeSurface surface;
@@ -76,7 +77,7 @@ struct Sheets {
             for (auto b = std::next(a); b != edges.end(); ++b) add({{(*a)[0], (*a)[1], (*b)[0], (*b)[1]}, true});
     }
 
-    // Pairs that come within the reach at one of some moments of a move.
+    // Returns the pairs whose distance is below the reach at one of several instants of a move.
     std::set<Key> near_pairs(const std::vector<Vec3>& x, const std::vector<Vec3>& move) const
     {
         std::set<Key> near;
@@ -102,7 +103,7 @@ std::vector<Vec3> sum(std::vector<Vec3> a, const std::vector<Vec3>& b)
     return a;
 }
 
-// Whether the tree's candidates for a move hold all pairs that come near. Returns how many these are.
+// Checks that the tree's candidates for a move hold all pairs that come near. Returns the number of these pairs.
 int check_complete(const Sheets& scene, ClothTree& tree, const std::vector<Vec3>& x, const std::vector<Vec3>& move)
 {
     const std::vector<real> from = as_planes(x, scene.stride), way = as_planes(move, scene.stride);
@@ -110,7 +111,7 @@ int check_complete(const Sheets& scene, ClothTree& tree, const std::vector<Vec3>
     std::set<Key> found;
     for (const PairCandidate& c : tree.candidates()) {
         CHECK(scene.apart(c));
-        CHECK(found.insert(key_of(c)).second);  // each is named once
+        CHECK(found.insert(key_of(c)).second);  // each pair is a candidate only once
     }
     const std::set<Key> near = scene.near_pairs(x, move);
     std::vector<Key> missing;
@@ -119,7 +120,7 @@ int check_complete(const Sheets& scene, ClothTree& tree, const std::vector<Vec3>
     return int(near.size());
 }
 
-// Crumples the cloth, moves it, then moves it on by little, as a solver does. The last moves reuse candidates.
+// Crumples the cloth, makes a large move and then small ones, as a solver does. The small moves reuse candidates.
 void check_crumpled(const Sheets& scene, double crumple, unsigned seed)
 {
     INFO("seed " << seed << ", crumpled by " << crumple);
@@ -165,7 +166,7 @@ TEST_CASE("no pair is missed on a panel that is not convex", "[tree]")
 {
     const Sheets scene(slit_cloth(side, spacing));
     for (unsigned seed : {4u, 5u}) check_crumpled(scene, 0.35, seed);
-    // The sides of the slit may meet while every face stays flat.
+    // The two sides of the slit can touch although every face stays flat.
     ClothTree tree(scene.surface, 0.15 * spacing);
     std::vector<Vec3> move(scene.cloth.positions.size(), Vec3::Zero());
     for (std::size_t v = 0; v < move.size(); ++v) {
@@ -183,7 +184,7 @@ TEST_CASE("no pair of two panels, or of a panel and a body, is missed", "[tree]"
     for (unsigned seed : {7u, 8u}) check_crumpled(with_body, 0.3, seed);
 }
 
-TEST_CASE("vertices that are to be sewn together are no candidates", "[tree]")
+TEST_CASE("vertices that are sewn together are not candidates, and no other pair is missed", "[tree]")
 {
     Cloth cloth = two_sheets(grid_cloth(side, side, spacing));
     for (int c = 0; c < side; ++c) cloth.seam_pairs.push_back({c, side * side + c});
@@ -195,7 +196,7 @@ TEST_CASE("a sheet that is flat or gently curved has no candidates and is skippe
 {
     const Cloth cloth = grid_cloth(33, 33, spacing);
     const int stride = padded_stride(int(cloth.positions.size()));
-    for (double curvature : {0.0, 0.3, 1.0}) {  // [1/m]; the sheet has 0.64 m
+    for (double curvature : {0.0, 0.3, 1.0}) {  // [1/m]; the side of the sheet is 0.64 m
         ClothTree tree(tree_surface(make_topology(cloth, false), cloth), 0.15 * spacing);
         std::vector<Vec3> x = cloth.positions;
         if (curvature > 0)
@@ -223,7 +224,7 @@ TEST_CASE("a sheet that was flat and is folded has candidates again, and none wh
     }
 }
 
-TEST_CASE("a motion that the whole cloth has in common needs no new search", "[tree]")
+TEST_CASE("a translation of the whole cloth needs no new search", "[tree]")
 {
     std::mt19937 random(10);
     const Sheets scene(grid_cloth(side, side, spacing));

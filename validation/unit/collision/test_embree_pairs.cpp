@@ -16,7 +16,7 @@ constexpr int side = 13;
 
 using Key = std::pair<bool, std::array<int, 4>>;
 
-// Pairs within the gap, whichever way their corners are named.
+// Returns the pairs within the gap, with keys that do not depend on the order of their corners.
 std::set<Key> close(const std::vector<PairCandidate>& candidates, const std::vector<Vec3>& x)
 {
     std::set<Key> result;
@@ -26,14 +26,14 @@ std::set<Key> close(const std::vector<PairCandidate>& candidates, const std::vec
         if (c.edges) std::sort(c.corner.begin() + 2, c.corner.end());
         if (c.edges && c.corner[2] < c.corner[0])
             std::swap_ranges(c.corner.begin(), c.corner.begin() + 2, c.corner.begin() + 2);
-        CHECK(result.insert({c.edges, c.corner}).second);  // each comes once
+        CHECK(result.insert({c.edges, c.corner}).second);  // each pair is found only once
     }
     return result;
 }
 
 }  // namespace
 
-TEST_CASE("the own tree and the ray tracing library's find the same pairs", "[tree]")
+TEST_CASE("ClothTree and the tree of the ray tracing library find the same pairs", "[tree]")
 {
     const Cloth cloth = grid_cloth(side, side, spacing);
     const int stride = padded_stride(side * side);

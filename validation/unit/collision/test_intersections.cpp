@@ -13,7 +13,7 @@ namespace {
 
 __extension__ typedef __int128 Whole;
 
-// The sign of the determinant for whole coordinates below 2^30.
+// Returns the sign of the orientation determinant in integer arithmetic, for whole coordinates below 2^30.
 int whole_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
     Whole u[3], v[3], w[3];
@@ -46,7 +46,7 @@ std::vector<IntersectingPair> all_pairs(const TriangleMesh& mesh)
 
 }  // namespace
 
-TEST_CASE("the side of a plane is told without error where double precision is not enough")
+TEST_CASE("the side of a plane is determined without error where double precision is not enough")
 {
     std::mt19937 random(7);
     std::uniform_int_distribution<int> big(-(1 << 29), 1 << 29), small(-2, 2);
@@ -55,7 +55,7 @@ TEST_CASE("the side of a plane is told without error where double precision is n
         Vec3 a, b, c;
         for (Vec3* x : {&a, &b, &c})
             for (int k = 0; k < 3; ++k) (*x)[k] = big(random);
-        // A point of the plane, moved by next to nothing: its sign hangs on the last digits.
+        // A point of the plane, moved by at most 2 along one axis: its sign depends on the determinant's last digits.
         Vec3 d = a + small(random) * (b - a) + small(random) * (c - a);
         if (d.cwiseAbs().maxCoeff() > 1e9) continue;
         d[round % 3] += small(random);
@@ -69,7 +69,7 @@ TEST_CASE("the side of a plane is told without error where double precision is n
     CHECK(rounded_wrong > 100);
 }
 
-TEST_CASE("closed triangles meet where they cross, touch or overlap, and only there")
+TEST_CASE("triangles intersect if they cross, touch or overlap, and only then")
 {
     const Triangle upright{Vec3(0.2, 0.2, -1), Vec3(0.2, 0.2, 1), Vec3(3, 3, 0)};
     CHECK(triangles_meet(base, upright));
@@ -87,7 +87,7 @@ TEST_CASE("closed triangles meet where they cross, touch or overlap, and only th
     CHECK_FALSE(is_degenerate({Vec3(0, 0, 0), Vec3(1, 2, 3), Vec3(-2, -4, -6 + 1e-15)}));
 }
 
-TEST_CASE("a mesh's intersections are those that trying all pairs finds")
+TEST_CASE("the self-intersections of a mesh are those that a test of all pairs finds")
 {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> place(-1, 1), size(-0.15, 0.15);
@@ -102,16 +102,16 @@ TEST_CASE("a mesh's intersections are those that trying all pairs finds")
     CHECK(self_intersections(mesh.vertices, mesh.faces) == wanted);
 }
 
-TEST_CASE("triangles with common corners count only where they cross beyond these")
+TEST_CASE("triangles with common corners intersect only if they cross elsewhere")
 {
     CHECK(self_intersections(sphere_mesh({0, 0, 0}, 1, 2).vertices, sphere_mesh({0, 0, 0}, 1, 2).faces).empty());
-    // Two that hang on one corner, apart at first; then the far edge of one goes through the other.
+    // Two triangles share one corner and are apart otherwise. Then the far edge of one passes through the other.
     const std::vector<Face> faces{{0, 1, 2}, {0, 3, 4}};
     std::vector<Vec3> x{{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 0, -1}, {-1, 0, 1}};
     CHECK(self_intersections(x, faces).empty());
     x[3].x() = x[4].x() = 0.5;
     CHECK(self_intersections(x, faces) == std::vector<IntersectingPair>{{0, 1}});
-    // Folded flat onto its neighbour over a common edge.
+    // A triangle is folded flat onto its neighbour along their common edge.
     CHECK(self_intersections({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.9, 0}}, {{0, 1, 2}, {1, 0, 3}}).empty());
 }
 

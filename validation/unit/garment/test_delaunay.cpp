@@ -23,7 +23,7 @@ double random_number(unsigned& state)
     return (state >> 8) / 16777216.0;
 }
 
-// A ring of points around the origin; with disorder above 1 neighbours may change places.
+// Returns a ring of points around the origin. With a disorder above 1 neighbours can be in the wrong order.
 std::vector<Vec2> ragged_ring(int count, double disorder, unsigned& state)
 {
     std::vector<Vec2> ring;

@@ -43,7 +43,7 @@ TriangleMesh read_text(const std::string& text, const std::string& unit = "m", c
     return read_obj(folder.write("mesh.obj", text), unit, up, texture);
 }
 
-// A sphere of latitude rings, as large as a scanned body.
+// A sphere of latitude rings with as many triangles as a scanned body.
 TriangleMesh round_body(int rings, int sectors)
 {
     TriangleMesh mesh;
@@ -170,6 +170,6 @@ TEST_CASE("a body of 47 500 triangles reads and is checked in a fraction of a se
     const auto end = std::chrono::steady_clock::now();
     CHECK(again.faces == mesh.faces);
     CHECK_NOTHROW(require_closed_body(again, "body.obj"));
-    // Ten times what it takes, as the machine may be busy or the build unoptimised.
+    // The limit is ten times the usual duration, because the machine may be busy or the build unoptimised.
     CHECK(std::chrono::duration<double>(end - begin).count() < 0.5);
 }

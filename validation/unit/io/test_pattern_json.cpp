@@ -9,7 +9,8 @@ using namespace selvage;
 
 namespace {
 
-// Two squares of 40 cm; %EDGE% is what follows the endpoints of the front's first edge, %ROTATION% its angles.
+// Two squares of 40 cm. %EDGE% stands for the text after the endpoints of the front's first edge, %ROTATION% for the
+// front's angles.
 constexpr const char* squares = R"({
 "pattern": {
   "panels": {
@@ -149,7 +150,7 @@ TEST_CASE("rotations are applied as Rz Ry Rx, with a warning where the order mat
     GarmentScene garment;
     garment.up_axis = "z";
     const Pattern pattern = read_variant(variant, garment);
-    // Ry Rx: y goes to z by Rx, then z goes to x by Ry.
+    // Rx maps y to z, then Ry maps z to x.
     CHECK((pattern.panels[0].rotation * Vec3(0, 1, 0) - Vec3(1, 0, 0)).norm() < 1e-12);
     REQUIRE(pattern.warnings.size() == 1);
     CHECK(pattern.warnings[0].find("pattern.panels.front.rotation") != std::string::npos);

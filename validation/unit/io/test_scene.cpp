@@ -67,7 +67,7 @@ TEST_CASE("a scene file's values arrive in the scene and absent ones keep their 
     CHECK_FALSE(scene.has_garment());
 }
 
-TEST_CASE("every fabric that a scene names is resolved, with its base where its table is silent")
+TEST_CASE("every fabric that a scene names is resolved, and properties absent from its table are those of its base")
 {
     const Scene scene = read_text(two_sheets);
     REQUIRE(scene.fabrics.count("silk") == 1);
@@ -153,7 +153,7 @@ TEST_CASE("every built-in scene reads, has a summary and only names parameters t
     }
 }
 
-TEST_CASE("the built-in sphere scene is the one that the program's users are promised")
+TEST_CASE("the built-in sphere scene has its documented contents")
 {
     const Scene scene = read_scene("builtin:sphere", {});
     const SheetScene& sheet = scene.sheets.at(0);
@@ -167,7 +167,7 @@ TEST_CASE("the built-in sphere scene is the one that the program's users are pro
     CHECK(std::stod(scene.solver.until) == 2);
 }
 
-TEST_CASE("every built-in fabric is within the ranges, stable and tells its source")
+TEST_CASE("every built-in fabric is within the accepted ranges, has a stable membrane and names its source")
 {
     const std::vector<std::string> names = fabric_preset_names();
     REQUIRE(names.size() >= 8);

@@ -96,7 +96,8 @@ void check_patch(const PatchCase& patch, const Fabric& fabric, const char* term_
     const int vs = state.size.vertex_stride;
     const double scale = std::hypot(patch.P[0], patch.P[3]) + std::abs(patch.P[1]);
     for (int c = 0; c < 2; ++c) {
-        double moment_x = 0, moment_y = 0;  // sum of f_c X over vertices is minus the area times P, by virtual work
+        // By virtual work the sum of f_c X over the vertices is minus the area times P.
+        double moment_x = 0, moment_y = 0;
         const Cloth cloth = irregular_square();
         for (int v = 0; v < side * side; ++v) {
             moment_x -= force[c * vs + v] * cloth.panel_coordinates[v].x();
@@ -105,7 +106,7 @@ void check_patch(const PatchCase& patch, const Fabric& fabric, const char* term_
         CHECK(std::abs(moment_x / (width * width) - patch.P[2 * c]) <= 1e-10 * scale);
         CHECK(std::abs(moment_y / (width * width) - patch.P[2 * c + 1]) <= 1e-10 * scale);
     }
-    // The pull at the right edge; what its corners carry of the upper and lower edges cancels.
+    // The force on the right edge. The contributions of the upper and lower edges to its corners cancel.
     for (int c = 0; c < 2; ++c) {
         double edge = 0;
         for (int r = 0; r < side; ++r) edge -= force[c * vs + r * side + side - 1];
@@ -178,7 +179,7 @@ TEST_CASE("measured points are converted to the membrane's measures and back wit
         const Vec2 point = membrane_point(measure, {0.3, 7});
         CHECK((measured_point(measure, point) - Vec2(0.3, 7)).norm() < 1e-14);
     }
-    // A force P = 100 x does 100 x^2 / 2 of work; so must s de.
+    // A force P = 100 x does the work 100 x^2 / 2, which the integral of s de must equal.
     double work = 0;
     for (int i = 0; i < 10000; ++i) {
         const Vec2 a = membrane_point(CurveMeasure::tension, {0.3 * i / 10000, 30.0 * i / 10000});
@@ -200,7 +201,7 @@ TEST_CASE("a strip beyond its over-elongation limit is 20 times as stiff", "[cur
     CHECK(curve_stress(weft, limit + 0.01) == Approx(300 * limit + 60));
 }
 
-TEST_CASE("a table's curve replaces the number it stands for, and a number an inherited curve", "[curves]")
+TEST_CASE("a fabric table's curve replaces an inherited number, and its number replaces an inherited curve", "[curves]")
 {
     Fabric wool = fabric_preset("wool_suiting");
     CHECK_FALSE(wool.stretch_weft_curve.empty());

@@ -22,7 +22,7 @@ using namespace selvage;
 
 namespace {
 
-/// A folder that goes away with the test.
+/// A temporary folder that is removed at the end of the test.
 struct Folder {
     std::filesystem::path path = std::filesystem::temp_directory_path() / ("selvage_run_" + std::to_string(getpid()));
     Folder() { std::filesystem::create_directories(path); }
@@ -224,7 +224,7 @@ TEST_CASE("the index for ParaView names every frame with its time and rows")
     CHECK(text.find("|15 0:") == std::string::npos);
 }
 
-TEST_CASE("a summary holds every promised key, and null for what is not known")
+TEST_CASE("a summary holds every documented key, and null for unknown values")
 {
     const nlohmann::json json = nlohmann::json::parse(summary_json({}));
     for (const char* key :

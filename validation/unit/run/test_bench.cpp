@@ -22,7 +22,7 @@ using namespace selvage;
 
 namespace {
 
-// What the suite prints on a small cloth.
+// Returns the output of the suite for a small cloth.
 std::string printed(bool json, std::vector<std::string> options)
 {
     options.insert(options.begin(), {"--vertices", "625", "--threads", "2", "--min-time", "0.001"});
@@ -144,13 +144,13 @@ TEST_CASE("the bytes of a kernel follow from its field list", "[bench]")
     const KernelCloth cloth(400);
     const mesh_sizes& size = cloth.state.size;
     const std::size_t vertices = size.vertex_count, faces = size.face_count, stitches = size.stitch_count;
-    // Positions, then corners, material, area and weights; nine forces read and written.
+    // The positions of all vertices, then corners, material, area and weights per face; the force is read and written.
     CHECK(term_bytes(term_named("membrane"), cloth.state, TermPart::value) ==
           vertices * 24 + faces * (12 + 4 + 8 + 32) + 32);
     CHECK(term_bytes(term_named("membrane"), cloth.state, TermPart::force) ==
           vertices * 24 + faces * (12 + 4 + 8 + 32 + 2 * 72) + 32);
     CHECK(term_bytes(term_named("gravity"), cloth.state, TermPart::stiffness) == 0);
-    // Stitches touch few vertices, none of them twice here.
+    // The stitches of this cloth have no vertex in common, and most vertices belong to none.
     CHECK(2 * stitches < vertices);
     CHECK(term_bytes(term_named("seam"), cloth.state, TermPart::value) <= stitches * (8 + 2 * 24));
     CHECK(term_bytes(term_named("seam"), cloth.state, TermPart::value) > stitches * (8 + 24));
@@ -180,7 +180,7 @@ TEST_CASE("growth exponents are the slopes of power laws, by least squares", "[b
 {
     CHECK(*growth_exponent({10, 100, 1000}, {3, 300, 30000}) == Approx(2));
     CHECK(*growth_exponent({1, 4, 16}, {2, 2, 2}) == Approx(0).margin(1e-12));
-    // One point off its line by a factor 1.1 at an end moves the slope of three by half of its logarithm.
+    // Of three points, a factor of 1.1 at an end changes the slope by half of the factor's logarithm.
     CHECK(*growth_exponent({1, 10, 100}, {1, 10, 110}) == Approx(1 + 0.5 * std::log10(1.1)));
     CHECK_FALSE(growth_exponent({5}, {1}));
     CHECK_FALSE(growth_exponent({5, 5}, {1, 2}));

@@ -33,7 +33,7 @@ std::array<double, 2> stretch_range(const Cloth& cloth, const std::vector<Vec3>&
 
 }  // namespace
 
-TEST_CASE("a shape that is carried to a nested mesh stretches no edge more or less than it was, and held vertices stay")
+TEST_CASE("a shape that is interpolated to a nested mesh keeps its range of edge stretches, and pinned vertices stay")
 {
     const Cloth coarse = sheet_of(9), fine = sheet_of(17);
     std::vector<Vec3> wave;

@@ -72,7 +72,7 @@ TEST_CASE("a picture has the width asked for and shows cloth before a pale backd
     }
 }
 
-TEST_CASE("two renderings of one scene are equal to the bit", "[render]")
+TEST_CASE("two renderings of one scene are equal bit for bit", "[render]")
 {
     const PictureCloth cloth = upright_sheet(8);
     const Image first = render_picture(cloth, {tetrahedron()}, small_front_view());
@@ -181,7 +181,7 @@ TEST_CASE("smooth cloth shares normals across faces and a sharp fold keeps its o
     }
 }
 
-TEST_CASE("marked lines know their distance within reach, and hems are the edges of one face", "[render]")
+TEST_CASE("marked lines give exact distances within their reach, and hems are the edges of only one face", "[render]")
 {
     const PictureCloth cloth = upright_sheet(10);
     const DrawnMesh mesh = make_drawn_mesh(cloth.positions, cloth.faces, Vec3::Zero());

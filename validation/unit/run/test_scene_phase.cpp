@@ -17,7 +17,7 @@ std::string chosen(const std::string& scene, const std::vector<std::string>& ove
 
 }  // namespace
 
-TEST_CASE("the automatic integrator goes straight to rest only where the way there does not matter")
+TEST_CASE("the automatic integrator is static only where the shape at rest does not depend on the motion before it")
 {
     CHECK(chosen("builtin:hanging", {}) == "static");
     CHECK(chosen("builtin:hanging", {"bending.hysteresis=true"}) == "implicit_euler");
@@ -40,7 +40,7 @@ TEST_CASE(
 
 TEST_CASE("cloth does not press on its own neighbours where a triangle is narrower than the fabric is thick")
 {
-    // Columns of 3 cm, 30 um and 10 um: vertices that are no corners of one triangle lie nearer than cotton is thick.
+    // Columns of 3 cm, 30 um and 10 um: some vertices without a common triangle are nearer than cotton is thick.
     const double columns[] = {0, 0.03, 0.03003, 0.06, 0.06001, 0.09};
     std::string mesh;
     for (int j = 0; j < 6; ++j)
@@ -60,7 +60,7 @@ TEST_CASE("cloth does not press on its own neighbours where a triangle is narrow
     CHECK(model.warnings[0].find("1e-05 m high") != std::string::npos);
 }
 
-TEST_CASE("triangles of ordinary shape leave the gap of cloth on cloth as the scene says")
+TEST_CASE("with triangles of ordinary shape the gap of cloth on cloth is the one in the scene")
 {
     for (const char* family : {"alternating", "equilateral", "irregular"}) {
         const std::vector<std::string> overrides = {"sheet.resolution=33", std::string("sheet.mesh_family=") + family};

@@ -15,7 +15,7 @@ using namespace selvage;
 
 namespace {
 
-// Every event ends before its predecessor does, or begins after that has ended.
+// Checks that every event lies within an earlier one or begins after its end.
 void check_nesting(const TraceTrack& track)
 {
     std::vector<std::int64_t> ends;
@@ -35,7 +35,7 @@ double work(int count)
     return sum_items(count, [](int item) { return std::sqrt(double(item)); });
 }
 
-// A tree of scopes with launches between them, and one launch whose tasks launch again.
+// Records nested scopes with parallel loops between them, and a parallel loop whose tasks start parallel loops.
 void record(int rounds)
 {
     std::vector<double> sums(4096);
@@ -88,7 +88,7 @@ TEST_CASE("scopes form a tree whose times add up, and events nest on every track
     CHECK(busy > 0);
 }
 
-TEST_CASE("nothing is recorded without a trace in use, and a timed kernel is a scope of the one in use")
+TEST_CASE("nothing is recorded without an active trace, and a timed kernel is a scope of the active trace")
 {
     CHECK(Trace::here() == nullptr);
     record(1);
@@ -106,7 +106,7 @@ TEST_CASE("nothing is recorded without a trace in use, and a timed kernel is a s
     CHECK(profile.records().front().calls == 1);
 }
 
-TEST_CASE("a track that grows too long loses its shortest events and stays nested")
+TEST_CASE("a track that becomes too long drops its shortest events and stays properly nested")
 {
     TraceTrack track;
     for (int i = 0; i < 300000; ++i) {
@@ -124,7 +124,7 @@ TEST_CASE("a track that grows too long loses its shortest events and stays neste
     check_nesting(track);
 }
 
-TEST_CASE("the report keeps what the trace holds, as a table, as JSON and in HDF5")
+TEST_CASE("the report holds the contents of the trace as a table, as JSON and in HDF5")
 {
     Trace trace;
     {

@@ -27,7 +27,7 @@ Params contact_alone()
     return params;
 }
 
-// Panels with nothing but contact, which a test moves about.
+// Panels whose only forces are those of contact, and which a test moves.
 struct Pile {
     Cloth cloth;
     std::vector<Body> bodies;
@@ -54,7 +54,7 @@ struct Pile {
         return any;
     }
 
-    // Moves the upper panel.
+    // Returns a move of the upper panels by a common displacement.
     std::vector<real> shift(const Vec3& way) const
     {
         std::vector<Vec3> move(cloth.positions.size(), Vec3::Zero());
@@ -76,7 +76,8 @@ Cloth stack(int count, double distance)
     return cloth;
 }
 
-// Hurls the cloth about, each time as far as its way is free, and looks for intersections on the way.
+// Makes large random moves, each shortened by the CCD step filter, and checks that the cloth does not intersect itself
+// or a body on the way.
 void hurl(Pile& pile, bool uniform, unsigned seed)
 {
     INFO("seed " << seed << (uniform ? ", uniform" : ""));
@@ -137,7 +138,8 @@ PairMemory in_state(const State& s)
     return result;
 }
 
-// A patch on a held sheet that is inclined: gravity has the slope's direction.
+// Lets a patch slide on an inclined, pinned sheet; instead of the sheet gravity is tilted. Returns the mean velocity of
+// the patch [m/s].
 Vec3 slide(double slope, double friction, double until)
 {
     ClothModel model;
@@ -168,7 +170,7 @@ Vec3 slide(double slope, double friction, double until)
 
 }  // namespace
 
-TEST_CASE("cloth that is hurled about never passes through itself", "[cloth_contact]")
+TEST_CASE("large moves, once filtered, never take cloth through itself", "[cloth_contact]")
 {
     for (bool uniform : {false, true})
         for (unsigned seed : {1u, 2u}) {
@@ -179,7 +181,7 @@ TEST_CASE("cloth that is hurled about never passes through itself", "[cloth_cont
         }
 }
 
-TEST_CASE("cloth that is hurled about never passes through a body's mesh", "[cloth_contact]")
+TEST_CASE("large moves, once filtered, never take cloth through a body's mesh", "[cloth_contact]")
 {
     Body box;
     box.mesh = box_mesh(Vec3(0.05, 0.05, -0.06), Vec3(0.05, 0.04, 0.055));
@@ -190,7 +192,7 @@ TEST_CASE("cloth that is hurled about never passes through a body's mesh", "[clo
         }
 }
 
-TEST_CASE("a way that meets nothing is left as it is", "[cloth_contact]")
+TEST_CASE("the step filter does not change a move without collisions", "[cloth_contact]")
 {
     Pile pile(stack(2, 2 * gap));
     for (bool uniform : {false, true})
@@ -203,12 +205,12 @@ TEST_CASE("a way that meets nothing is left as it is", "[cloth_contact]")
     CHECK(pile.contact.counts().shortened == 0);
 }
 
-TEST_CASE("only what would hit something is held back", "[cloth_contact]")
+TEST_CASE("the step filter shortens only the moves of vertices that would collide", "[cloth_contact]")
 {
     Cloth cloth = stack(2, 2 * gap);
     Pile pile(cloth);
     std::vector<real> move = pile.shift(Vec3(0, 0, -5 * gap));
-    const int lifted = 2 * side * side - 1, vs = pile.stride();  // a corner that goes the other way
+    const int lifted = 2 * side * side - 1, vs = pile.stride();  // a corner that moves in the opposite direction
     move[2 * vs + lifted] = 5 * gap;
     const std::vector<real> wanted = move;
     pile.contact.clear_way(pile.state, move, false);
@@ -240,7 +242,7 @@ TEST_CASE("pairs in contact are listed with their distance below the gap, and ar
     CHECK(pile.state.size.pair_count == 0);
 }
 
-TEST_CASE("there is room for the slots of all pairs, however their number grows", "[cloth_contact]")
+TEST_CASE("the state has room for the slots of all pairs, however their number grows", "[cloth_contact]")
 {
     for (int step : {1, 7, 40, 129}) {
         Pile pile(grid_cloth(3, 3, spacing));
@@ -254,11 +256,13 @@ TEST_CASE("there is room for the slots of all pairs, however their number grows"
     }
 }
 
-TEST_CASE("passing through is noticed from where it began", "[cloth_contact]")
+TEST_CASE("a move is clear only if the cloth does not pass through itself on the way from the old positions",
+          "[cloth_contact]")
 {
     Pile pile(stack(2, 2 * gap));
     const std::vector<real> from = pile.state.pos;
-    for (double way : {-1.0, -3.0, -50.0, 50.0}) {  // near, through, far through, away; in gaps
+    for (double way :
+         {-1.0, -3.0, -50.0, 50.0}) {  // in gaps: close to the panel below, through it, far through it, away
         pile.state.pos = from;
         pile.add(pile.shift(Vec3(0, 0, way * gap)));
         const std::vector<real> at = pile.state.pos;
@@ -267,7 +271,7 @@ TEST_CASE("passing through is noticed from where it began", "[cloth_contact]")
     }
 }
 
-TEST_CASE("bristles are found again when pairs come and go and change their order", "[cloth_contact]")
+TEST_CASE("a pair keeps its bristle when other pairs appear or disappear and the order changes", "[cloth_contact]")
 {
     Pile pile(stack(3, 0.7 * gap));
     pile.contact.update(pile.state);
@@ -288,7 +292,7 @@ TEST_CASE("bristles are found again when pairs come and go and change their orde
     CHECK(in_state(pile.state) == before);
 }
 
-TEST_CASE("memory that is saved and restored gives the same bristles in another contact", "[cloth_contact]")
+TEST_CASE("saved and restored friction memory gives the same bristles in another contact object", "[cloth_contact]")
 {
     Pile first(stack(2, 0.7 * gap)), second(stack(2, 0.7 * gap));
     first.contact.update(first.state);
@@ -308,8 +312,7 @@ TEST_CASE("memory that is saved and restored gives the same bristles in another 
     CHECK(in_state(second.state) == expected);
 }
 
-TEST_CASE("cloth that starts tangled is noticed, comes apart when pulled, and then is as other cloth",
-          "[cloth_contact]")
+TEST_CASE("an initial tangle is detected, comes apart when pulled, and cannot form again afterwards", "[cloth_contact]")
 {
     Cloth cloth = grid_cloth(side, side, spacing);
     add_panel(cloth, grid_cloth(side, side, spacing), Vec3(0.003, 0.005, 0));

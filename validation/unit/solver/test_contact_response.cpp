@@ -21,7 +21,7 @@ namespace {
 
 constexpr double gap = 0.002, g = 9.81, density = 0.2;
 
-// A sheet above a plane under gravity that leans by an angle towards -x.
+// A sheet above a plane; gravity is tilted by an angle towards -x.
 struct Landing {
     ClothModel model;
     std::unique_ptr<BodyQuery> query;
@@ -117,7 +117,7 @@ bool has(const std::vector<std::string>& names, const std::string& name)
 
 }  // namespace
 
-TEST_CASE("the exponential law begins at zero, is the slope of its value and ends bounded", "[response]")
+TEST_CASE("the exponential law is zero where contact sets in, is the slope of its energy and is bounded", "[response]")
 {
     for (double s : {1.0, 1.5, 100.0}) {
         CHECK(repulsion_at(s).value == 0);
@@ -155,7 +155,7 @@ TEST_CASE("under the exponential law a sheet rests where its weight is balanced"
     }
 }
 
-TEST_CASE("towards rest BDF2 is followed until an attempt at statics has failed, then implicit Euler hurries",
+TEST_CASE("pseudo-time stepping to rest uses BDF2 until a static attempt fails, then implicit Euler with longer steps",
           "[response]")
 {
     Params params;
@@ -188,7 +188,7 @@ TEST_CASE("towards rest BDF2 is followed until an attempt at statics has failed,
     CHECK(longest_step("implicit_euler", before, true) == Approx(0.04));
 }
 
-TEST_CASE("who only wants balance gets the cloth where its forces first nearly balance, before any statics",
+TEST_CASE("with only_balances the drape ends when the forces first nearly balance, before any static attempt",
           "[response]")
 {
     Params params;
@@ -200,7 +200,7 @@ TEST_CASE("who only wants balance gets the cloth where its forces first nearly b
     options.only_balances = true;
     DrapeProgress progress;
     const auto hear = [](const StepEvent& event) {
-        CHECK(event.dt > 0);  // static iterations are none of time
+        CHECK(event.dt > 0);  // the step of a static iteration is 0
         return true;
     };
     REQUIRE(drape_to_equilibrium(*sheet.phase, options, progress, hear) == PhaseEnd::reached);
@@ -209,7 +209,7 @@ TEST_CASE("who only wants balance gets the cloth where its forces first nearly b
     CHECK(progress.switch_residual == DrapeProgress{}.switch_residual);
 }
 
-TEST_CASE("under the velocity rule a dropped sheet bounces to the height that restitution tells", "[response]")
+TEST_CASE("under the velocity rule a dropped sheet bounces to the height that restitution predicts", "[response]")
 {
     const double drop = 0.1;
     const double impact = std::sqrt(2 * drop / g);
@@ -218,7 +218,7 @@ TEST_CASE("under the velocity rule a dropped sheet bounces to the height that re
             INFO(integrator << ", restitution " << restitution);
             Landing sheet(rule(restitution), gap + drop);
             double top = 0;
-            // Up to where the first bounce is highest, and a little beyond.
+            // The run ends shortly after the highest point of the first bounce.
             sheet.fly(integrator, 5e-4, impact * (1 + restitution) + 0.02, [&](double time) {
                 if (time > impact + 0.003) top = std::max(top, sheet.highest() - gap);
                 CHECK(sheet.lowest() >= gap - 1e-9);
@@ -230,7 +230,7 @@ TEST_CASE("under the velocity rule a dropped sheet bounces to the height that re
 TEST_CASE("under the velocity rule Coulomb's friction holds or slows a sheet on an incline", "[response]")
 {
     const double lean = 0.3, dt = 2e-3;
-    // Explicit schemes: Newton's method may leave a part of a short step's gain in velocity to the next.
+    // Only explicit schemes are tested: Newton's tolerance may leave part of a velocity gain to the next step.
     for (const char* integrator : {"velocity_verlet", "symplectic_euler"})
         for (double friction : {0.2, 0.4}) {  // tan 0.3 is 0.309
             INFO(integrator << ", friction " << friction);

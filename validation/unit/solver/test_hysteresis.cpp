@@ -52,7 +52,7 @@ Cloth strip(const std::string& family)
     return make_sheet(sheet, PinsScene{}, "", "sheet[0]");
 }
 
-// A strip that is bent to cylinders along x (axis 0, weft) or y (axis 1, warp), with nothing but hysteresis.
+// A strip that is bent to cylinders along x (axis 0, weft) or y (axis 1, warp). Its only force is that of hysteresis.
 class BentStrip {
 public:
     BentStrip(const Cloth& cloth, int axis)
@@ -67,14 +67,14 @@ public:
         return hysteresis_term().energy(state_, params_);
     }
 
-    /// dE/dkappa over the area of which the free ends do not relieve the faces [N].
+    /// Returns dE/dkappa divided by the area of the bent faces, that is, without the faces at the free ends [N].
     double moment(double curvature)
     {
         const double change = 1e-4;
         return (energy(curvature + change) - energy(curvature - change)) / (2 * change * bent_area());
     }
 
-    /// Goes there in short steps, each of which settles.
+    /// Bends the strip from one curvature to another in short steps, and updates the anchors after each.
     void bend(double from, double to)
     {
         constexpr int steps = 20;
@@ -114,7 +114,7 @@ private:
     State state_;
 };
 
-// How far the end of a clamped strip stays down after its weight has bent it and is taken away.
+// Returns the deflection of a clamped strip that remains after its weight has bent it and gravity is switched off [m].
 double drop_that_stays(bool hysteresis)
 {
     ClothModel model;
@@ -159,7 +159,7 @@ bool allocates_anchors(const RunPlan& plan)
 
 }  // namespace
 
-TEST_CASE("cloth bent to and fro leaves a moment loop of the width 2HB on any mesh, along weft and warp")
+TEST_CASE("cloth bent to and fro has a hysteresis loop of the width 2HB on any mesh, along weft and warp")
 {
     for (const char* family : {"alternating", "same_diagonal", "irregular"})
         for (int axis : {0, 1}) {

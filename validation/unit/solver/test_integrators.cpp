@@ -22,7 +22,7 @@ NewtonOptions exact()
     return newton;
 }
 
-// A soft sheet; its parts are public so that each test sets what it needs.
+// A soft sheet; its members are public so that each test can set them.
 struct Sheet {
     ClothModel model;
     PhaseOptions options;
@@ -45,7 +45,7 @@ struct Sheet {
     Phase phase() { return Phase(model, options, nullptr, profile, model.cloth.positions, velocities); }
 };
 
-// A sheet that hangs from two corners and swings, in smooth motion from the start.
+// A sheet that hangs from two corners and swings; its motion is smooth from the start.
 Sheet swinging(double damping)
 {
     Sheet sheet;
@@ -79,7 +79,7 @@ double observed_order(std::string_view name, double damping, int steps, const st
     const double coarse = largest_distance(shape.state(), swing(name, damping, steps), truth);
     const double fine = largest_distance(shape.state(), swing(name, damping, 2 * steps), truth);
     INFO(name << ": errors " << coarse << " and " << fine);
-    CHECK(fine > 1e-12);  // else rounding is measured
+    CHECK(fine > 1e-12);  // below this the error would be that of rounding
     return std::log2(coarse / fine);
 }
 
@@ -114,7 +114,7 @@ struct Oscillator {
         phase.linear().multiply(up.data(), force.data());
         frequency = std::sqrt(force[z] * phase.state().inv_mass[4]);
     }
-    // Lifts the vertex so little that its motion is linear.
+    // Lifts the vertex by so little that its motion is linear.
     Phase lifted()
     {
         Phase phase = sheet.phase();
@@ -158,7 +158,7 @@ TEST_CASE("every integrator shows the order that it claims, with drag and withou
     }
 }
 
-TEST_CASE("schemes of second order and more follow free fall exactly, the others by their sequences")
+TEST_CASE("schemes of second order and more follow free fall exactly, the others have their known error")
 {
     const double dt = 0.01, g = 9.81;
     const int steps = 20;
@@ -193,7 +193,7 @@ TEST_CASE("implicit Euler shrinks a mode by 1 / sqrt(1 + w^2 dt^2) a step and th
     }
 }
 
-TEST_CASE("the energy of Verlet's scheme swings but does not drift")
+TEST_CASE("the energy of Verlet's scheme oscillates but does not drift")
 {
     Sheet sheet = swinging(0);
     Phase phase = sheet.phase();
@@ -211,7 +211,7 @@ TEST_CASE("the energy of Verlet's scheme swings but does not drift")
     CHECK(late < 1.5 * early);
 }
 
-TEST_CASE("the predicted stability limit is the one at which an explicit scheme bursts")
+TEST_CASE("the predicted stability limit is the step at which an explicit scheme becomes unstable")
 {
     for (double damping : {0.0, 100.0})
         for (const IntegratorInfo& info : integrators()) {
@@ -276,7 +276,7 @@ TEST_CASE("a step repeated from a saved state and history gives the same bits")
     }
 }
 
-TEST_CASE("pinned vertices stay to the last bit with every integrator")
+TEST_CASE("pinned vertices do not move by a single bit with any integrator")
 {
     for (const IntegratorInfo& info : integrators()) {
         Sheet sheet = swinging(1);
@@ -290,7 +290,7 @@ TEST_CASE("pinned vertices stay to the last bit with every integrator")
     }
 }
 
-TEST_CASE("a step above the limit is divided, or refused where that is asked")
+TEST_CASE("a step above the stability limit is divided, or refused if the options say so")
 {
     Sheet sheet = swinging(0);
     Phase phase = sheet.phase();
@@ -306,7 +306,7 @@ TEST_CASE("a step above the limit is divided, or refused where that is asked")
     CHECK_THROWS_AS(strict.advance(1, {}, true), UnstableStepError);
 }
 
-TEST_CASE("central differences bear steps whose length keeps changing")
+TEST_CASE("central differences stay stable with steps whose length keeps changing")
 {
     Sheet sheet = swinging(0);
     Phase phase = sheet.phase();
@@ -321,7 +321,7 @@ TEST_CASE("central differences bear steps whose length keeps changing")
     CHECK(error < 0.5 * kinetic);
 }
 
-TEST_CASE("adaptive steps keep the estimated error below what is asked and grow where that allows it")
+TEST_CASE("adaptive steps keep the estimated error below the given one and are not needlessly short")
 {
     for (const IntegratorInfo& info : integrators()) {
         if (!info.has_error_estimate()) continue;
@@ -332,7 +332,7 @@ TEST_CASE("adaptive steps keep the estimated error below what is asked and grow 
         options.adaptive = true;
         options.error = 1e-6;
         NewtonOptions newton = exact();
-        newton.tolerance = 1e-6;  // short steps cannot resolve smaller forces
+        newton.tolerance = 1e-6;  // with short steps rounding prevents smaller residuals
         StepControl control(phase, *integrator, options);
         double time = 0, shortest = 1, longest = 0;
         while (time < 0.05) {

@@ -48,7 +48,7 @@ Vec3 mean(const std::vector<Vec3>& x)
     return sum / double(x.size());
 }
 
-// A sheet that lies on a plane which carries it off from 0.1 s to 0.6 s, at this mean speed.
+// A sheet on a plane that moves from 0.1 s to 0.6 s with the given mean speed.
 struct Belt {
     ClothModel model = sheet_model(7);
     std::unique_ptr<BodyQuery> query;
@@ -83,10 +83,10 @@ struct Belt {
 
 }  // namespace
 
-TEST_CASE("a sheet that sticks to a moving plane goes with it")
+TEST_CASE("a sheet that sticks to a moving plane moves with it")
 {
     for (const char* integrator : {"implicit_euler", "bdf2"}) {
-        Belt belt(0.2, 0.8, true);  // at most 2.4 m/s^2: it never slips
+        Belt belt(0.2, 0.8, true);  // at most 2.4 m/s^2, so the sheet never slips
         DrapeProgress progress;
         const double start = belt.ride(0.1, progress, integrator).x();
         CHECK(belt.ride(0.6, progress, integrator).x() - start == Approx(0.1).margin(5e-4));
@@ -97,7 +97,7 @@ TEST_CASE("a sheet that sticks to a moving plane goes with it")
 
 TEST_CASE("a sheet that slides on a moving plane is driven by Coulomb's force")
 {
-    Belt belt(5, 0.1, false);  // for 0.5 s faster than friction lets the sheet become
+    Belt belt(5, 0.1, false);  // friction cannot accelerate the sheet to the belt's speed within 0.5 s
     DrapeProgress progress;
     belt.ride(0.3, progress);
     const double before = mean(belt.phase->velocities()).x();
@@ -105,9 +105,9 @@ TEST_CASE("a sheet that slides on a moving plane is driven by Coulomb's force")
     CHECK((mean(belt.phase->velocities()).x() - before) / 0.2 == Approx(0.1 * 9.81).epsilon(0.01));
 }
 
-TEST_CASE("resting on a moving body means resting once it stands still")
+TEST_CASE("a drape to equilibrium on a moving body ends only after the body has come to rest")
 {
-    Belt belt(0.2, 0.8, true);  // at most 2.4 m/s^2: it never slips
+    Belt belt(0.2, 0.8, true);  // at most 2.4 m/s^2, so the sheet never slips
     EquilibriumOptions options;
     options.step.longest = 0.01;
     DrapeProgress progress;

@@ -68,11 +68,11 @@ Vec3 centre_of_mass(const Phase& phase)
 }
 
 struct Slide {
-    double way = 0;           ///< In the second half of a second [m].
-    double acceleration = 0;  ///< Mean, after the landing in the first 0.2 s [m/s^2].
+    double way = 0;           ///< Distance in the second half of a second [m].
+    double acceleration = 0;  ///< Mean after the first 0.2 s, in which the sheet lands [m/s^2].
 };
 
-// A sheet lying on a plane that falls towards +x by `angle`.
+// Lets a sheet slide on a plane that is inclined by `angle` towards +x.
 Slide slide_on_incline(double angle, double friction)
 {
     ClothModel model = grid_model(7);
@@ -85,7 +85,7 @@ Slide slide_on_incline(double angle, double friction)
     BodyQuery query(model.bodies, Box(Vec3(-5, -5, -1), Vec3(5, 5, 1)));
     PhaseOptions options;
     options.params = cloth_params();
-    // Tilting gravity instead of the plane keeps every number of the test in sight.
+    // Gravity is tilted instead of the plane, so that the motion is along x.
     options.params.gravity.acceleration_x = 9.81 * std::sin(angle);
     options.params.gravity.acceleration_z = -9.81 * std::cos(angle);
     options.params.body_contact.stiffness = 200;
@@ -152,7 +152,7 @@ TEST_CASE("joining sewn vertices keeps the mass, the centre of mass and the mome
 TEST_CASE("sewing closes the gap between two strips")
 {
     ClothModel model = grid_model(6);
-    // Two columns in the middle are torn apart by 10 cm and sewn together again, without the faces between them.
+    // The faces between two columns in the middle are removed. The halves are moved 10 cm apart and sewn together.
     std::erase_if(model.cloth.faces, [](const Face& f) {
         int left = 0;
         for (int v : f) left += v % 6 <= 2;
@@ -203,7 +203,7 @@ TEST_CASE("a hanging sheet comes to rest with its forces balanced and its pins w
     CHECK(now[4].z() < -0.1);
 }
 
-TEST_CASE("a phase that starts over is one that was made with the new positions")
+TEST_CASE("a phase that starts over moves exactly like one that was made with the new positions")
 {
     ClothModel model = grid_model(9);
     model.cloth.pinned = {72, 80};
@@ -223,7 +223,7 @@ TEST_CASE("a phase that starts over is one that was made with the new positions"
     CHECK(again.state().vel == fresh.state().vel);
 }
 
-TEST_CASE("a step that is to stop is given up as if it had not begun")
+TEST_CASE("a stop in the middle of a step leaves the state of the last completed step")
 {
     ClothModel model = grid_model(9);
     model.cloth.pinned = {72, 80};

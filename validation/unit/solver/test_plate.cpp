@@ -10,7 +10,7 @@ using namespace selvage;
 
 namespace {
 
-constexpr double curvature = 1e-3;  // so small that the mesh's angles are those of a flat plate's deflection [1/m]
+constexpr double curvature = 1e-3;  // small enough for the linear theory of flat plates [1/m]
 
 FabricTable one_rigidity(double weft, double warp)
 {
@@ -32,7 +32,7 @@ Cloth rectangle(const std::string& family)
     return make_sheet(sheet, PinsScene{}, "", "sheet[0]");
 }
 
-// Bends the sheet to a cylinder: along x (axis 0) or y (axis 1) of its start positions.
+// Returns the positions of the sheet bent to a cylinder along x (axis 0) or y (axis 1) of its start positions.
 std::vector<Vec3> cylinder(const Cloth& cloth, int axis)
 {
     std::vector<Vec3> positions = cloth.positions;
@@ -50,7 +50,7 @@ double plate_energy(const Cloth& cloth, const FabricTable& fabrics, const std::v
     return 0;
 }
 
-// The part of the area whose faces have no edge on the free ends, which carry no moment.
+// Returns the area of the faces without an edge on the free ends; faces at the free ends carry no moment.
 double bent_area(const Cloth& cloth, int axis)
 {
     double low = 1e9, high = -1e9, total = 0;
@@ -71,8 +71,8 @@ double bent_area(const Cloth& cloth, int axis)
     return total;
 }
 
-// Splits a grid between two columns into two panels that are sewn together there. The second panel lies in its own
-// coordinates turned by `angle`, and the other way round if `turned_over`.
+// Cuts a grid between two columns into two panels that are sewn together there. The panel coordinates of the second one
+// are rotated by `angle`, and mirrored if `turned_over`.
 Cloth sewn_grid(int columns, int rows, int cut, double angle, bool turned_over)
 {
     const Cloth whole = grid_cloth(columns, rows);
@@ -123,7 +123,7 @@ TEST_CASE("a plate bent along weft or warp has exactly the fabric's rigidity on 
         }
 }
 
-TEST_CASE("an isotropic plate does not feel the direction of its mesh", "[plate]")
+TEST_CASE("the rigidity of an isotropic plate does not depend on the direction of its mesh", "[plate]")
 {
     const FabricTable fabrics = one_rigidity(0.02, 0.02);
     for (const char* family : {"alternating", "same_diagonal", "irregular"})
@@ -137,7 +137,7 @@ TEST_CASE("an isotropic plate does not feel the direction of its mesh", "[plate]
         }
 }
 
-TEST_CASE("a seam between panels of one fabric bends like the fabric, however the panels lie", "[plate]")
+TEST_CASE("a seam between panels of one fabric bends like the fabric, whatever the panels' coordinates", "[plate]")
 {
     const FabricTable fabrics = one_rigidity(0.02, 0.02);
     const Cloth whole = grid_cloth(11, 8);
@@ -151,7 +151,7 @@ TEST_CASE("a seam between panels of one fabric bends like the fabric, however th
         }
 }
 
-TEST_CASE("next to held vertices a plate bends from the clamp on, with its whole rigidity", "[plate]")
+TEST_CASE("a plate next to pinned vertices bends from the clamp on, with its full rigidity", "[plate]")
 {
     const FabricTable fabrics = one_rigidity(0.02, 0.02);
     Cloth cloth = grid_cloth(11, 8);

@@ -9,7 +9,8 @@ using namespace selvage;
 
 namespace {
 
-// A sheet that hangs by its top corners, in double so that two ways to the same step can be told apart.
+// A sheet that hangs by its top corners. The solver works in double precision, so that two ways of computing the same
+// step agree closely.
 Scene hanging()
 {
     const std::vector<std::string> changes{"sheet.resolution=17", "solver.precision=double"};
@@ -39,7 +40,7 @@ NewtonOptions exact()
     return options;
 }
 
-// Vertices of the sheet that are to sleep.
+// Marks the vertices of the sheet that are put to sleep.
 std::vector<char> lower_half(const Cloth& cloth)
 {
     std::vector<char> result;
@@ -64,7 +65,8 @@ TEST_CASE("cloth of which a part sleeps moves as if that part were pinned")
     const std::vector<char> asleep = lower_half(sleeping.model.model.cloth);
     std::vector<char> awake;
     for (char s : asleep) awake.push_back(!s);
-    // Held from the start the plate would be clamped there: its elements are those of the free sheet.
+    // The vertices are pinned only after the phase was made. Pinned before, they would clamp the plate, whose elements
+    // would then differ from those of the sleeping sheet.
     for (std::size_t v = 0; v < asleep.size(); ++v)
         if (asleep[v]) pinned.phase->state().inv_mass[v] = 0;
 
@@ -82,7 +84,7 @@ TEST_CASE("cloth of which a part sleeps moves as if that part were pinned")
         if (asleep[v]) CHECK(a[v] == start[v]);
 }
 
-TEST_CASE("what has slept is known exactly once all wake")
+TEST_CASE("once all vertices are awake the forces and energy are those of a sheet that never slept")
 {
     const Scene scene = hanging();
     Cloths slept(scene), other(scene);

@@ -54,7 +54,7 @@ State spring_state_of(const Cloth& cloth, const FabricTable& fabrics, const Para
     return state;
 }
 
-// Energy per area of the strain e_uu = u, e_vv = v, g over its square, at small strain.
+// Returns the energy per area of a small strain (e_uu, e_vv, g) = t (u, v, g), divided by t^2.
 double modulus(const Cloth& cloth, const FabricTable& fabrics, double u, double v, double g)
 {
     const Params params = spring_params(1, 0);
@@ -73,7 +73,7 @@ double modulus(const Cloth& cloth, const FabricTable& fabrics, double u, double 
     return total / (tiny * tiny * cloth.panels[0].rest_area);
 }
 
-// Elongation at the upper end of a hanging strip, whose own weight would stretch it by `hanging_load` there.
+// The strain by which its own weight would stretch a hanging strip at the upper end without the limit [1].
 constexpr double hanging_load = 0.2 * 9.81 * 0.16 / 10;
 
 double hanging_elongation(Params params, double limit)
@@ -155,7 +155,7 @@ TEST_CASE("a fit with non-negative unknowns is the best one", "[springs]")
     CHECK(fit_non_negative(moduli, Eigen::Vector2d(-1, -1)).norm() == 0);
 }
 
-TEST_CASE("over-long springs and faces hold a loaded strip within 6 % of its limit", "[springs]")
+TEST_CASE("the over-elongation limits of springs and faces keep a loaded strip within 6 % of the limit", "[springs]")
 {
     Params faces;
     faces.curved_membrane.scale = faces.bending.scale = 1;
@@ -170,12 +170,12 @@ TEST_CASE("over-long springs and faces hold a loaded strip within 6 % of its lim
 TEST_CASE("a bend spring stores the energy of a hinge at the reference curvature", "[springs]")
 {
     const FabricTable fabrics = test_fabrics();
-    const double size = 0.004;  // m; the fold is 0.2 rad
+    const double size = 0.004;  // [m]; the fold angle is 0.2 rad
     Cloth cloth = grid_cloth(2, 2, size);
     Params params = spring_params(0, 1);
     params.bending.scale = 1;
     const double height = size / std::sqrt(2.0), angle = bend_spring_curvature * height;
-    // Turns the corner beyond the diagonal from (1, 0) to (0, 1) about it.
+    // Rotates the corner (1, 1) about the diagonal from (1, 0) to (0, 1).
     const Vec3 along = Vec3(-1, 1, 0).normalized(), middle(0.5 * size, 0.5 * size, 0);
     cloth.positions[3] = middle + Eigen::AngleAxisd(angle, along).toRotationMatrix() * (cloth.positions[3] - middle);
     State state = spring_state_of(cloth, fabrics, params);
@@ -188,7 +188,7 @@ TEST_CASE("a bend spring stores the energy of a hinge at the reference curvature
     CHECK(spring == Approx(hinge).epsilon(0.02));
 }
 
-TEST_CASE("a plan of springs has neither faces' nor hinges' forces", "[springs][plan]")
+TEST_CASE("a plan with springs has no forces of faces and hinges", "[springs][plan]")
 {
     const std::vector<std::string> overrides{"sheet.resolution=9", "membrane.model=springs"};
     const Scene scene = read_scene("builtin:hanging", overrides);

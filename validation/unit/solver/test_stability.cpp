@@ -8,7 +8,7 @@
 using namespace selvage;
 
 TEST_CASE(
-    "soft sheets hurled at a sphere end as stable, shortened, refused or given up, never with energy from nowhere")
+    "soft sheets hurled at a sphere end stable, recovered, refused or given up, with at most 1.3 times their energy")
 {
     for (const IntegratorInfo& info : integrators()) {
         if (!info.is_explicit) continue;
@@ -24,7 +24,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("however violently it starts, a sheet that begins free of itself does not end crossed")
+TEST_CASE("a sheet that starts without self-intersections ends without, however violent the start")
 {
     for (const char* integrator : {"implicit_euler", "bdf2", "implicit_midpoint", "velocity_verlet"})
         for (const ViolentStart start : {ViolentStart::stretched, ViolentStart::hurled})
@@ -38,14 +38,14 @@ TEST_CASE("however violently it starts, a sheet that begins free of itself does 
             }
 }
 
-TEST_CASE("crossings that a violent start has are told, and need not be gone after ten short steps")
+TEST_CASE("self-intersections of a violent start are counted and may remain after ten short steps")
 {
     const StabilityResult result = run_cell({"implicit_euler", 1e-4, 0.01, 16, 0, ViolentStart::crumpled, true});
     CHECK(result.tangled > 0);
     CHECK(result.verdict == StabilityVerdict::stable);
 }
 
-TEST_CASE("a run that the stability limit ends keeps the last accepted state and the contact planes that belong to it")
+TEST_CASE("a run that ends at the stability limit keeps its last accepted state and the contact planes of that state")
 {
     SceneRunner runner("builtin:sphere", {"sheet.resolution=16", "sheet.fabric=cotton", "membrane.scale=0.01",
                                           "bending.scale=0.01", "contact.self=false"});

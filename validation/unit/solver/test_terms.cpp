@@ -60,14 +60,15 @@ TEST_CASE("every term's projected stiffness has no negative eigenvalue", "[terms
     }
 }
 
-TEST_CASE("terms inside the cloth do not see rigid motion and exert no net force or torque", "[terms]")
+TEST_CASE("internal terms are invariant under rigid motions and exert no net force or torque", "[terms]")
 {
     const Params params = unit_strengths();
     for (const Term& term : all_terms()) {
         if (term.per == ItemKind::vertex) continue;
         INFO("term " << term.name);
         State state = crumpled_state(params, 7, false);
-        // Friction refers to a frame that is held from the step's start: it does not turn along, nor is it central.
+        // Friction uses the normal and weights of the start of the step, which do not rotate with the cloth, and its
+        // force is not central. It is therefore only invariant under translations.
         const bool held = term.name == "cloth_friction";
         const double before = term.energy(state, params);
         const std::vector<real> force = term_force(term, state, params);
@@ -161,14 +162,14 @@ TEST_CASE("linear solvers of both precisions and preconditioners agree with a de
         }
 }
 
-TEST_CASE("products with contact and friction in pairs are those of the matrix", "[terms][linear]")
+TEST_CASE("matrix-free products with contact and friction pairs equal those of the assembled matrix", "[terms][linear]")
 {
     for (double friction : {0.0, 1.0}) {
         Params params = unit_strengths();
         params.cloth_friction.scale = friction;
         State state = crumpled_state(params);
         const int n = state.size.vertex_count, vs = state.size.vertex_stride;
-        state.inv_mass[10] = 0;  // in contact and pinned
+        state.inv_mass[10] = 0;  // vertex 10 is in contact and pinned
         clear_stiffness(state);
         for (const Term& term : all_terms())
             if (term.is_active(params)) term.add_stiffness(state, params, true);
