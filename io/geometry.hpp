@@ -20,7 +20,7 @@ struct MeshPart {
     int face_count = 0;
 };
 
-/// A triangle mesh in metres, z up unless its reader was told otherwise.
+/// A triangle mesh in metres, z up unless its reader was given another axis.
 struct TriangleMesh {
     std::vector<Vec3> vertices;  ///< Positions [m].
     std::vector<Face> faces;

@@ -17,8 +17,7 @@ std::string rounded_text(double value);
 /// Returns `low to high unit` for messages and documentation; the unit "1" is left out.
 std::string range_text(double low, double high, std::string_view unit);
 
-/// Guesses the value that was meant if an out-of-range value was given in another unit, such as `0.01 m (10 mm)`
-/// for 10.
+/// Guesses the value that an out-of-range value means in another unit, such as `0.01 m (10 mm)` for 10.
 /// @param low, high, unit  the accepted range of the key
 /// @return "" if no common unit brings the value into the range
 std::string unit_slip(double value, double low, double high, std::string_view unit);

@@ -14,7 +14,7 @@ struct BodyMeshReport {
     std::array<int, 2> first_boundary_edge{-1, -1};
     int nonmanifold_edges = 0;  ///< Edges with more than two faces.
     std::array<int, 2> first_nonmanifold_edge{-1, -1};
-    int inconsistent_edges = 0;  ///< Edges whose two faces run the same way along them.
+    int inconsistent_edges = 0;  ///< Edges that both of their faces traverse in the same direction.
     std::array<int, 2> first_inconsistent_edge{-1, -1};
     int doubled_vertices = 0;       ///< Vertices at exactly the position of another.
     double volume = 0;              ///< Signed [m^3]; negative: the faces look inward.

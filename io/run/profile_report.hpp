@@ -42,8 +42,7 @@ struct ProfileReport {
     std::vector<ProfileTrack> tracks;
 };
 
-/// Returns the rows as a table, indented by depth, with bandwidth and arithmetic rates where traffic and work are
-/// known.
+/// Returns the rows as a table, indented by depth, with bandwidths and arithmetic rates where they are known.
 std::string profile_table(const ProfileReport& report);
 
 /// Writes the tracks as a Chrome trace, which Perfetto and chrome://tracing open.

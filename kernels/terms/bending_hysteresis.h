@@ -6,10 +6,11 @@
 //     f_i = -M cos(theta/2) dtheta/dx_i
 // After every step a slipping hinge drags its anchor so that q <= r (stages/settle_hysteresis.h). A cloth that is bent
 // to and fro then has a hysteresis loop of width 2HB around its elastic moment. host/solver/state/hysteresis.hpp
-// chooses L so that this width does not depend on the mesh. Source: a frictional couple beside the rigidity as in
-// Grosberg 1966 and Kawabata 1980; the elastic anchor is that of terms/friction.h. The projected stiffness drops M
-// d2phi/dx2 and uses the secant M / w in place of the tangent dM/dphi. The secant is never negative, and it stays
-// positive for a slipping hinge, which sticks again as soon as its motion reverses.
+// chooses L so that this width does not depend on the mesh.
+// The projected stiffness drops M d2phi/dx2 and uses the secant M / w in place of the tangent dM/dphi. The secant is
+// never negative, and it stays positive for a slipping hinge, which sticks again as soon as its motion reverses.
+// Source: a frictional couple beside the rigidity as in Grosberg 1966 and Kawabata 1980. The elastic anchor is that of
+// terms/friction.h. The default of the stick curvature was chosen by hand; not measured.
 #pragma once
 #include "../hinge.h"
 

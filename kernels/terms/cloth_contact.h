@@ -6,8 +6,10 @@
 // g is the distance at which the pair's contact sets in, P a pressure, A the pair's area, b the barrier of barrier.h.
 // The barrier is infinite at d = g / 200, so that pairs do not touch in output files either, where positions are
 // rounded to a micrometre. A negative corner belongs to a body: its position is body_point[-1 - corner], and it takes
-// no force. K omits the change of n. The omitted part is negative semidefinite, because f is repulsive, so K is already
-// the projected stiffness. Source: Li and others 2021 (C-IPC), with distances in place of squared distances.
+// no force.
+// K omits the change of n. The omitted part is negative semidefinite, because f is repulsive, so K is already the
+// projected stiffness.
+// Source: Li and others 2021 (C-IPC), with distances in place of squared distances.
 #pragma once
 #include "../barrier.h"
 #include "../closest.h"

@@ -5,13 +5,14 @@
 // After every step a sliding vertex drags its anchor so that q <= r, and L is updated from the normal force
 // (stages/settle_friction.h). A sticking vertex does not creep at any step size, as it would under a friction law that
 // depends on velocities alone.
-// Source: Coulomb's law; the elastic anchor is that of Cundall and Strack 1979 in incremental form.
+// Source: Coulomb's law; the elastic anchor is that of Cundall and Strack 1979 in incremental form. The default of the
+// stick distance was chosen by hand; not measured.
 #pragma once
 #include "../term_args.h"
 
 #define friction_PARAMS(STRENGTH, PARAM)                               \
     STRENGTH(scale, 0.0, "1", "multiplies every friction coefficient") \
-    PARAM(stick_distance, 2e-4, "m", "elastic way before a vertex slides, r")
+    PARAM(stick_distance, 2e-4, "m", "elastic displacement before a vertex slides, r")
 // clang-format off
 #define friction_FIELDS(READ, ADD)                                                                 \
     READ(pos) READ(contact_normal) READ(contact_friction) READ(friction_anchor) READ(friction_limit) \

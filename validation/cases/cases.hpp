@@ -21,7 +21,7 @@ using CaseProgress = std::function<void(const std::string& line)>;
 
 /// Runs groups and returns their rows. A group that throws gets a failing row.
 /// @param names  empty: all
-/// @param quick  leave out what takes long
+/// @param quick  leave out the slow parts
 /// @throws InputError for an unknown name, naming the nearest
 std::vector<ValidationRow> run_cases(const std::vector<std::string>& names, bool quick, const CaseProgress& progress);
 

@@ -205,7 +205,7 @@ void free_fall(CaseReport& report, const IntegratorInfo& info)
                     momentum(phase.state(), false).z(), 1e-9);
     if (info.name == "bdf2") return;
     const double late = info.order == 1 ? 1 + dt : 1;
-    report.relative(fmt::format("{}: way after 1 s of free fall [m]", info.name),
+    report.relative(fmt::format("{}: displacement after 1 s of free fall [m]", info.name),
                     oscillation_reference("free_fall", "y(1)") * late, phase.positions()[5].z(), 1e-9);
 }
 

@@ -99,7 +99,7 @@ TEST_CASE("a body passes through its keyframes and stays at the last")
     const Placement there = motion->placement(1);
     CHECK((there * pivot - (pivot + Vec3(0.3, 0, 0.2))).norm() < 1e-14);
     CHECK((there.linear() * Vec3::UnitX() + Vec3::UnitX()).norm() < 1e-14);
-    // 3 s^2 - 2 s^3 at a quarter of the way.
+    // The smooth interpolation 3 s^2 - 2 s^3 at s = 1/4.
     CHECK((motion->placement(0.25) * pivot - pivot - 0.15625 * Vec3(0.3, 0, 0.2)).norm() < 1e-14);
     CHECK(motion->end() == 1.5);
     CHECK((motion->placement(9).matrix() - motion->placement(1.5).matrix()).norm() == 0);

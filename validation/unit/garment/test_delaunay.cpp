@@ -104,7 +104,7 @@ TEST_CASE("the circle test is exact where doubles are not")
     CHECK_FALSE(in_circle(a, b, c, {1, -r}));
 }
 
-TEST_CASE("removing what was inserted gives back a Delaunay triangulation of the rest")
+TEST_CASE("removing inserted points leaves a Delaunay triangulation of the others")
 {
     std::vector<GridPoint> points{{-50000, -50000}, {50000, -50000}, {50000, 50000}, {-50000, 50000}};
     unsigned state = 7;

@@ -286,7 +286,7 @@ TEST_CASE("meshing the same panel twice gives the same mesh")
     CHECK(first.panel_coordinates == second.panel_coordinates);
 }
 
-TEST_CASE("both sides of a seam are sampled alike, in opposite directions unless told otherwise")
+TEST_CASE("both sides of a seam are sampled alike, in opposite directions unless the stitch says otherwise")
 {
     Pattern pattern = pattern_of({rectangle("left", 0.3, 0.5), rectangle("right", 0.3, 0.8, {0.35, 0, 0})});
     pattern.stitches.push_back({{0, 1}, {1, 3}, false});

@@ -220,7 +220,7 @@ TEST_CASE("the mannequin is a sound mesh for every size and arm angle")
     CHECK(next_face == int(mesh.faces.size()));
 }
 
-TEST_CASE("the mannequin has the measures that were asked for")
+TEST_CASE("the mannequin has the requested measures")
 {
     const std::string size = GENERATE("S", "M", "L", "M, altered");
     CAPTURE(size);

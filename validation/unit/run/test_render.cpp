@@ -59,7 +59,7 @@ bool is_fabric(const Rgb& rgb) { return rgb[2] > rgb[0] + 25; }
 
 }  // namespace
 
-TEST_CASE("a picture has the width asked for and shows cloth before a pale backdrop in both views", "[render]")
+TEST_CASE("a picture has the requested width and shows cloth before a pale backdrop in both views", "[render]")
 {
     const Image image = render_picture(upright_sheet(8), {}, small_front_view());
     REQUIRE(image.width == 200);
@@ -107,7 +107,7 @@ TEST_CASE("a body shows where the cloth does not cover it", "[render]")
     CHECK(brightness(body.at(50, body.height / 2)) < brightness(empty.at(50, empty.height / 2)) - 40);
 }
 
-TEST_CASE("the ground catches a shadow only when asked to", "[render]")
+TEST_CASE("the ground shows a shadow only if the options say so", "[render]")
 {
     PictureOptions options = small_front_view();
     options.views = PictureViews::three_quarters;

@@ -201,7 +201,7 @@ TEST_CASE("a strip that its weight has bent keeps part of the bend only with hys
     CHECK(drop_that_stays(true) > 1e-3);
 }
 
-TEST_CASE("hysteresis takes no memory unless the scene asks for it and a fabric has it", "[plan]")
+TEST_CASE("hysteresis takes no memory unless the scene enables it and a fabric has it", "[plan]")
 {
     const std::string size = "sheet.resolution=9", fabric = "sheet.fabric=wool_suiting";
     const std::string asked = "bending.hysteresis=true";

@@ -145,7 +145,7 @@ bool stays_bounded(std::string_view name, double dt, double damping)
 
 }  // namespace
 
-TEST_CASE("every integrator shows the order that it claims, with drag and without")
+TEST_CASE("every integrator has the order of convergence that it claims, with drag and without")
 {
     for (double damping : {0.0, 8.0}) {
         const std::vector<real> truth = swing("rk4", damping, 3200);
