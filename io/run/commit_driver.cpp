@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
+#if __has_include(<H5FDdevelop.h>)  // since HDF5 1.13; before, hdf5.h says it all
+    #include <H5FDdevelop.h>
+#endif
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -254,6 +257,10 @@ const H5FD_class_t& driver_class()
 {
     static const H5FD_class_t driver = [] {
         H5FD_class_t c{};
+#ifdef H5FD_CLASS_VERSION  // since HDF5 1.13.2
+        c.version = H5FD_CLASS_VERSION;
+        c.value = 512;  // the first of those that HDF5 leaves to drivers nobody else opens files with
+#endif
         c.name = "selvage_commit";
         c.maxaddr = haddr_t(INT64_MAX);
         c.fc_degree = H5F_CLOSE_STRONG;

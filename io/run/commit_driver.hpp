@@ -16,6 +16,12 @@ namespace selvage {
 /// Each such write is at most some hundred bytes long, and the file is readable before and after each of them.
 /// The order holds while space is never freed: open a closed file, then only append.
 /// The driver takes no file lock, so that a running file can be read.
+///
+/// HDF5's own drivers do not do. In validation/unit/io/test_kill.cpp, 70 frames are 2057 changes of the file when they
+/// are written by HDF5 1.10 or 1.14 alone; of the files that a kill after one of these leaves, 4 have an index of
+/// chunks that leads nowhere, with which all 64 frames so far are lost, 30 lack the last committed frame, and 15 are
+/// refused or show a frame that is not whole. Below this driver there are none. HDF5's mode for readers beside a
+/// writer (SWMR) keeps an order too, but files of killed writers then only open once a repair tool has cleared them.
 /// @throws std::runtime_error if HDF5 refuses the driver.
 void use_commit_driver(hid_t file_access_properties);
 

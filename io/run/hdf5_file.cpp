@@ -43,6 +43,8 @@ hid_t open_file(const std::string& path, Hdf5Access access)
 {
     if (access == Hdf5Access::read) return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     const Hdf5Id properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access properties");
+    // HDF5's default up to 1.14. Headers in the newer formats have checksums, which the order of writes breaks.
+    require_hdf5(H5Pset_libver_bounds(properties, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), "versions of the format");
     use_commit_driver(properties);
     if (access == Hdf5Access::append) return H5Fopen(path.c_str(), H5F_ACC_RDWR, properties);
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, properties);

@@ -114,7 +114,13 @@ std::vector<unsigned char> TrajectoryReader::read_raw_frame(int frame, std::uint
     hsize_t size = 0;
     require_hdf5(H5Dget_chunk_storage_size(dataset, start.data(), &size), file_->path());
     std::vector<unsigned char> bytes(size);
-    require_hdf5(H5Dread_chunk(dataset, H5P_DEFAULT, start.data(), &filter_mask, bytes.data()), file_->path());
+#if H5_VERSION_GE(2, 0, 0)  // the name has gone to a function that is told the size
+    std::size_t room = bytes.size();
+    const herr_t status = H5Dread_chunk2(dataset, H5P_DEFAULT, start.data(), &filter_mask, bytes.data(), &room);
+#else
+    const herr_t status = H5Dread_chunk(dataset, H5P_DEFAULT, start.data(), &filter_mask, bytes.data());
+#endif
+    require_hdf5(status, file_->path());
     return bytes;
 }
 
