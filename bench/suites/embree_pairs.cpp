@@ -7,9 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include <embree3/rtcore.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+
+#include "host/embree/rays.hpp"
 
 namespace selvage {
 namespace {

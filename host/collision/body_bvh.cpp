@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <embree3/rtcore.h>
-
+#include "host/embree/rays.hpp"
 #include "host/parallel/trace.hpp"
 
 namespace selvage {
@@ -49,7 +48,7 @@ bool visit_triangle(RTCPointQueryFunctionArguments* args)
 }
 
 struct EntrySearch {
-    RTCIntersectContext context;  // first, so that the library's pointer to it is one to this struct
+    RayContext context;  // first, so that the library's pointer to it is one to this struct
     const BodySurface* surface;
     const int* triangles;
     Vec3 x0, x1;
@@ -207,7 +206,7 @@ NearestTriangle BodyBvh::nearest(const Vec3& x, double radius, int hint) const
 
 SurfaceEntry BodyBvh::first_entry(const Vec3& x0, const Vec3& x1) const
 {
-    EntrySearch search{{}, impl_->surface, impl_->triangles.data(), x0, x1, {}};
+    EntrySearch search{make_ray_context(), impl_->surface, impl_->triangles.data(), x0, x1, {}};
     const double length = (x1 - x0).norm();
     if (!(length > 0)) return search.first;
     // The ray is longer than the path by the rounding error at both ends. Whether a triangle near an end counts is
@@ -215,7 +214,6 @@ SurfaceEntry BodyBvh::first_entry(const Vec3& x0, const Vec3& x1) const
     const double slack = impl_->slack(x0);
     const Vec3 direction = (x1 - x0) / length, origin = x0 - slack * direction - impl_->origin;
 
-    rtcInitIntersectContext(&search.context);
     RTCRayHit ray{};
     ray.ray.org_x = float(origin.x());
     ray.ray.org_y = float(origin.y());
@@ -228,7 +226,7 @@ SurfaceEntry BodyBvh::first_entry(const Vec3& x0, const Vec3& x1) const
     ray.ray.mask = ~0u;
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(impl_->scene, &search.context, &ray);
+    find_first_hit(impl_->scene, ray, search.context, RayOrder::unrelated);
     return search.first;
 }
 

@@ -2,7 +2,7 @@
 #include <memory>
 #include <type_traits>
 
-#include <embree3/rtcore.h>
+#include "host/embree/rays.hpp"
 
 namespace selvage {
 

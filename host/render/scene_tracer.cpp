@@ -61,10 +61,8 @@ std::optional<SurfaceHit> SceneTracer::first_hit(const Ray& ray) const
     RTCRayHit query{};
     query.ray = embree_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect1(scene_.get(), &context, &query);
+    RayContext context = make_ray_context();
+    find_first_hit(scene_.get(), query, context, RayOrder::neighbouring);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
     SurfaceHit hit;
@@ -96,9 +94,7 @@ std::optional<SurfaceHit> SceneTracer::first_hit(const Ray& ray) const
 bool SceneTracer::is_blocked(const Ray& ray) const
 {
     RTCRay query = embree_ray(ray);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_.get(), &context, &query);
+    find_any_hit(scene_.get(), query);
     return query.tfar < 0;
 }
 

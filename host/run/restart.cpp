@@ -32,7 +32,7 @@ private:
 };
 
 template <class T>
-const std::vector<T>& array_of(const std::map<std::string, std::vector<T>>& arrays, const std::string& name,
+const std::vector<T>& array_of(const std::map<std::string, std::vector<T>>& arrays, const char* name,
                                const std::string& path, std::size_t size)
 {
     const auto at = arrays.find(name);
@@ -191,7 +191,7 @@ void load_history(const Checkpoint& checkpoint, const std::string& path, Integra
     if (word_of(checkpoint, "integrator") != integrator.info().name) return;
     const auto history = integrator.history();
     for (std::size_t k = 0; k < history.size(); ++k)
-        *history[k] = array_of(checkpoint.reals, history_name(k), path, history[k]->size());
+        *history[k] = array_of(checkpoint.reals, history_name(k).c_str(), path, history[k]->size());
 }
 
 }  // namespace selvage

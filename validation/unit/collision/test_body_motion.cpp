@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -9,6 +7,7 @@
 #include "host/model/body.hpp"
 #include "host/scene/body_model.hpp"
 #include "io/scene/read_scene.hpp"
+#include "validation/unit/catch.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;
@@ -266,6 +265,6 @@ TEST_CASE("a sequence of meshes and a single target pose move a body, and other 
     CHECK(body_mesh_at(morph, 1).vertices[3].z() == 1);
     CHECK(body_mesh_at(morph, 2).vertices[3].z() == Approx(2.5));
     CHECK_THROWS_WITH(built("mesh = \"pose_1.obj\"\n[[body.keyframe]]\ntime = 1\nmesh = \"other.obj\"\n"),
-                      Catch::Contains("other.obj"));
-    CHECK_THROWS_WITH(built("sequence = \"none_*.obj\"\n"), Catch::Contains("body[0].sequence"));
+                      contains_text("other.obj"));
+    CHECK_THROWS_WITH(built("sequence = \"none_*.obj\"\n"), contains_text("body[0].sequence"));
 }

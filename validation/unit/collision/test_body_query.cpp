@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <cmath>
 #include <random>
 
@@ -8,6 +6,7 @@
 #include "host/collision/body_query.hpp"
 #include "host/mesh/body_tessellation.hpp"
 #include "host/model/body.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

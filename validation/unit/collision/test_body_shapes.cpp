@@ -1,10 +1,9 @@
-#include <catch2/catch.hpp>
-
 #include <utility>
 
 #include "host/mesh/body_tessellation.hpp"
 #include "host/model/body.hpp"
 #include "host/scene/body_shapes.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

@@ -1,9 +1,8 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <random>
 
 #include "host/collision/ccd.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

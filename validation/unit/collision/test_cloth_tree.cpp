@@ -1,11 +1,10 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <set>
 
 #include "host/model/body.hpp"
 #include "host/solver/contact/cloth_contact.hpp"
 #include "validation/measure/crumpled_sheets.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

@@ -1,11 +1,10 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <set>
 
 #include "bench/suites/embree_pairs.hpp"
 #include "host/solver/contact/cloth_contact.hpp"
 #include "validation/measure/crumpled_sheets.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 
@@ -22,10 +21,14 @@ std::set<Key> close(const std::vector<PairCandidate>& candidates, const std::vec
     std::set<Key> result;
     for (PairCandidate c : candidates) {
         if (!(pair_distance({x[c.corner[0]], x[c.corner[1]], x[c.corner[2]], x[c.corner[3]]}, c.edges) < gap)) continue;
-        std::sort(c.corner.begin() + (c.edges ? 0 : 1), c.corner.begin() + (c.edges ? 2 : 4));
-        if (c.edges) std::sort(c.corner.begin() + 2, c.corner.end());
-        if (c.edges && c.corner[2] < c.corner[0])
-            std::swap_ranges(c.corner.begin(), c.corner.begin() + 2, c.corner.begin() + 2);
+        if (c.edges) {
+            std::sort(c.corner.begin(), c.corner.begin() + 2);
+            std::sort(c.corner.begin() + 2, c.corner.end());
+            if (c.corner[2] < c.corner[0])
+                std::swap_ranges(c.corner.begin(), c.corner.begin() + 2, c.corner.begin() + 2);
+        } else {
+            std::sort(c.corner.begin() + 1, c.corner.end());
+        }
         CHECK(result.insert({c.edges, c.corner}).second);  // each pair is found only once
     }
     return result;

@@ -1,11 +1,10 @@
-#include <catch2/catch.hpp>
-
 #include <random>
 
 #include "host/mesh/body_tessellation.hpp"
 #include "host/mesh/exact_orientation.hpp"
 #include "host/mesh/self_intersections.hpp"
 #include "host/mesh/triangle_intersection.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

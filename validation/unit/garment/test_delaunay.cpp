@@ -1,11 +1,11 @@
 // The exact Delaunay triangulation under the panel meshes.
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <numbers>
 
 #include "host/mesh/delaunay.hpp"
 #include "host/mesh/panel_mesh.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

@@ -1,5 +1,4 @@
 // Plain sheets of cloth: their meshes, pins and transfers between resolutions.
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "host/mesh/sheet_families.hpp"
 #include "host/model/transfer.hpp"
 #include "io/errors.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 
@@ -48,7 +48,7 @@ TEST_CASE("sheets have the vertices, size and place that their scene says")
     CHECK(disc.panels[0].rest_area == Approx(std::numbers::pi * 0.15 * 0.15).epsilon(0.005));
     for (const Face& face : disc.faces) CHECK(face_area(disc, face) > 0.1 * 0.01 * 0.01);
     sheet.shape = "circle";
-    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), Catch::Contains("sheet[0].shape"));
+    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), contains_text("sheet[0].shape"));
 }
 
 TEST_CASE("every mesh family fills its rectangle or disc with faces that look up")
@@ -76,7 +76,7 @@ TEST_CASE("every mesh family fills its rectangle or disc with faces that look up
         for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
     }
     sheet.mesh_family = "cross";
-    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), Catch::Contains("sheet[0].mesh_family"));
+    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), contains_text("sheet[0].mesh_family"));
 }
 
 TEST_CASE("pins hold the vertices that their word names")
@@ -96,8 +96,8 @@ TEST_CASE("pins hold the vertices that their word names")
     CHECK(pinned("left_edge") == std::vector<int>{0, 4, 8, 12});
     CHECK(pinned("two_rows") == std::vector<int>{0, 1, 4, 5, 8, 9, 12, 13});
     CHECK(pinned("top_corners", "7, 2,15") == std::vector<int>{2, 7, 12, 15});
-    CHECK_THROWS_WITH(pinned("none", "16"), Catch::Contains("pins.vertices") && Catch::Contains("from 0 to 15"));
-    CHECK_THROWS_WITH(pinned("none", "1,x"), Catch::Contains("pins.vertices"));
+    CHECK_THROWS_WITH(pinned("none", "16"), contains_text("pins.vertices") && contains_text("from 0 to 15"));
+    CHECK_THROWS_WITH(pinned("none", "1,x"), contains_text("pins.vertices"));
     sheet.mesh_family = "irregular";
     CHECK(pinned("left_edge") == std::vector<int>{0, 4, 8, 12});
 }
@@ -115,14 +115,14 @@ TEST_CASE("a sheet from a mesh takes its rest shape from texture coordinates, or
     for (const Face& face : flat.faces) CHECK(face_area(flat, face) == Approx(1));
 
     mesh.vertices[2].y() = 0.3;
-    CHECK_THROWS_WITH(sheet_from_mesh(mesh, {}, sheet, {}, "scene.toml", "sheet[1]"), Catch::Contains("sheet[1].mesh"));
+    CHECK_THROWS_WITH(sheet_from_mesh(mesh, {}, sheet, {}, "scene.toml", "sheet[1]"), contains_text("sheet[1].mesh"));
     const std::vector<Vec2> rest{{0, 0}, {-1, 0}, {-1, 2}, {0, 2}};  // seen from behind
     const Cloth textured = sheet_from_mesh(mesh, rest, sheet, {}, "scene.toml", "sheet[1]");
     CHECK(textured.panels[0].rest_area == Approx(2));
     CHECK(textured.panels[0].rest_boundary == Approx(6));
     const std::vector<Vec2> folded{{0, 0}, {1, 0}, {1, 2}, {2, 0}};
     CHECK_THROWS_WITH(sheet_from_mesh(mesh, folded, sheet, {}, "scene.toml", "sheet[1]"),
-                      Catch::Contains("turned over"));
+                      contains_text("turned over"));
 }
 
 TEST_CASE("a transfer between sheets of different resolution reproduces linear functions")

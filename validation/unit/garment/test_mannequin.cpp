@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,6 +9,7 @@
 #include "host/garment/catalogue.hpp"
 #include "host/mannequin/mannequin.hpp"
 #include "io/errors.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <string>
 #include <vector>
 
@@ -9,6 +7,7 @@
 #include "io/pattern/pattern_json.hpp"
 #include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
+#include "validation/unit/catch.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;

@@ -1,11 +1,10 @@
-#include <catch2/catch.hpp>
-
 #include <chrono>
 #include <cmath>
 
 #include "io/errors.hpp"
 #include "io/mesh/body_mesh.hpp"
 #include "io/mesh/mesh_obj.hpp"
+#include "validation/unit/catch.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;

@@ -1,8 +1,7 @@
-#include <catch2/catch.hpp>
-
 #include <Eigen/LU>
 
 #include "io/pattern/pattern_json.hpp"
+#include "validation/unit/catch.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <array>
 #include <cmath>
 #include <random>
@@ -11,6 +9,7 @@
 #include "io/scene/scene.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

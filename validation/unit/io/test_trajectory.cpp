@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +15,7 @@
 #include "io/run/summary.hpp"
 #include "io/run/trajectory.hpp"
 #include "io/run/xdmf.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 
@@ -156,7 +155,7 @@ TEST_CASE("a position that is not finite is refused and leaves the file as it wa
     std::vector<Vec3> broken = positions(2);
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         broken[3].y() = value;
-        CHECK_THROWS_WITH(writer.write_frame(broken, scalars(2)), Catch::Contains("vertex 3"));
+        CHECK_THROWS_WITH(writer.write_frame(broken, scalars(2)), contains_text("vertex 3"));
     }
     check_frames(path, 2, 1e-5);
     write_frames(writer, 3);

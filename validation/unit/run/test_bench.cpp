@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -16,6 +14,7 @@
 #include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
 #include "io/version.hpp"
+#include "validation/unit/catch.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;

@@ -1,8 +1,7 @@
-#include <catch2/catch.hpp>
-
 #include "host/garment/sheet.hpp"
 #include "host/model/transfer.hpp"
 #include "host/run/progressive.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

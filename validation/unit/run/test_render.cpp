@@ -4,13 +4,12 @@
 #include <filesystem>
 #include <limits>
 
-#include <catch2/catch.hpp>
-
 #include "host/render/camera.hpp"
 #include "host/render/line_marks.hpp"
 #include "host/render/picture.hpp"
 #include "host/render/sampling.hpp"
 #include "io/errors.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

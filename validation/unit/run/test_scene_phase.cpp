@@ -1,9 +1,9 @@
 #include <fmt/format.h>
-#include <catch2/catch.hpp>
 
 #include "host/scene/scene_phase.hpp"
 #include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"
+#include "validation/unit/catch.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <fstream>
 #include <functional>
 
@@ -9,6 +7,7 @@
 #include "host/parallel/profile.hpp"
 #include "host/run/run_profile.hpp"
 #include "io/run/hdf5_file.hpp"
+#include "validation/unit/catch.hpp"
 #include "validation/unit/scratch_file.hpp"
 
 using namespace selvage;
@@ -51,7 +50,7 @@ void record(int rounds)
     }
 }
 
-const TraceNode& node_named(const Trace& trace, const std::string& name)
+const TraceNode& node_named(const Trace& trace, const char* name)
 {
     for (const TraceNode& node : trace.scopes())
         if (node.name == name) return node;

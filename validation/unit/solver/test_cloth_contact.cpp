@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <map>
 
 #include "host/mesh/self_intersections.hpp"
@@ -10,6 +8,7 @@
 #include "host/solver/terms/cloth_state.hpp"
 #include "io/scene/fabric_table.hpp"
 #include "validation/measure/crumpled_sheets.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

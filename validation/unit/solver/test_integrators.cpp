@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "host/model/cloth_model.hpp"
@@ -8,6 +6,7 @@
 #include "host/solver/stepping/step_control.hpp"
 #include "io/errors.hpp"
 #include "validation/measure/small_cloth.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 
@@ -351,5 +350,5 @@ TEST_CASE("an unknown integrator is refused with the nearest name")
 {
     Sheet sheet;
     Phase phase = sheet.phase();
-    CHECK_THROWS_WITH(make_integrator("rk5", phase), Catch::Contains("rk4"));
+    CHECK_THROWS_WITH(make_integrator("rk5", phase), contains_text("rk4"));
 }

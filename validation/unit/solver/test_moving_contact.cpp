@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +8,7 @@
 #include "host/solver/stepping/phase.hpp"
 #include "io/scene/fabric_table.hpp"
 #include "validation/measure/small_cloth.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

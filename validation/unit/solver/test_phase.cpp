@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "host/model/body.hpp"
@@ -11,6 +9,7 @@
 #include "host/solver/terms/cloth_state.hpp"
 #include "io/scene/read_scene.hpp"
 #include "validation/measure/small_cloth.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

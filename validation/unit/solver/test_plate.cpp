@@ -1,10 +1,9 @@
-#include <catch2/catch.hpp>
-
 #include "host/garment/sheet.hpp"
 #include "host/model/cloth_model.hpp"
 #include "host/solver/state/plate.hpp"
 #include "host/solver/terms/cloth_state.hpp"
 #include "validation/measure/small_cloth.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

@@ -1,9 +1,8 @@
-#include <catch2/catch.hpp>
-
 #include "host/scene/scene_model.hpp"
 #include "host/scene/scene_phase.hpp"
 #include "host/solver/stepping/sleep.hpp"
 #include "io/scene/read_scene.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

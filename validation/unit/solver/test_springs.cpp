@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <cmath>
 #include <random>
 
@@ -13,6 +11,7 @@
 #include "io/scene/read_scene.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

@@ -1,9 +1,8 @@
-#include <catch2/catch.hpp>
-
 #include "bench/harness/scene_runner.hpp"
 #include "bench/suites/stability_cells.hpp"
 #include "host/solver/stepping/step_control.hpp"
 #include "io/errors.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 

@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include <Eigen/Dense>
 
 #include "host/solver/linear/linear_solver.hpp"
@@ -7,6 +5,7 @@
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"
 #include "validation/measure/stiffness.hpp"
+#include "validation/unit/catch.hpp"
 
 using namespace selvage;
 
