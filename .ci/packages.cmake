@@ -62,12 +62,14 @@ endif()
 if(hdf5_FOUND)
     target_link_libraries(selvage_hdf5 INTERFACE PkgConfig::hdf5)
 else()
+    enable_language(C)   # of which CMake's search makes use
     find_package(HDF5 QUIET COMPONENTS C)
     target_link_libraries(selvage_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
     target_include_directories(selvage_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
     set(hdf5_FOUND ${HDF5_FOUND})
 endif()
-selvage_need("${hdf5_FOUND}" "HDF5 and pkg-config" "libhdf5-dev pkg-config" "hdf5-devel pkgconf-pkg-config" "hdf5 pkgconf")
+selvage_need("${hdf5_FOUND}" "HDF5 and pkg-config"
+    "libhdf5-dev pkg-config" "hdf5-devel pkgconf-pkg-config" "hdf5 pkgconf")
 
 # Debian's libopencv-core-dev and its siblings bring no CMake file; that one pulls in all of OpenCV.
 add_library(selvage_opencv INTERFACE)

@@ -121,8 +121,7 @@ TEST_CASE("a sheet from a mesh takes its rest shape from texture coordinates, or
     CHECK(textured.panels[0].rest_area == Approx(2));
     CHECK(textured.panels[0].rest_boundary == Approx(6));
     const std::vector<Vec2> folded{{0, 0}, {1, 0}, {1, 2}, {2, 0}};
-    CHECK_THROWS_WITH(sheet_from_mesh(mesh, folded, sheet, {}, "scene.toml", "sheet[1]"),
-                      contains_text("turned over"));
+    CHECK_THROWS_WITH(sheet_from_mesh(mesh, folded, sheet, {}, "scene.toml", "sheet[1]"), contains_text("turned over"));
 }
 
 TEST_CASE("a transfer between sheets of different resolution reproduces linear functions")
