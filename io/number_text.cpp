@@ -20,17 +20,6 @@ constexpr UnitSlip slips[] = {
 
 }  // namespace
 
-std::vector<std::string> split_choices(std::string_view choices)
-{
-    std::vector<std::string> words;
-    while (!choices.empty()) {
-        const std::size_t bar = std::min(choices.find('|'), choices.size());
-        words.emplace_back(choices.substr(0, bar));
-        choices.remove_prefix(std::min(bar + 1, choices.size()));
-    }
-    return words;
-}
-
 std::string number_text(double value)
 {
     const double size = std::abs(value);

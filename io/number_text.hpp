@@ -1,12 +1,8 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace selvage {
-
-/// Splits the words of a choice list such as `float|double`; none for "".
-std::vector<std::string> split_choices(std::string_view choices);
 
 /// Returns the shortest text that reads back as the same number.
 std::string number_text(double value);

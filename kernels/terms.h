@@ -1,8 +1,9 @@
 // The list of force terms. A new term adds its include and its TERM line here, and nothing elsewhere.
-//     TERM(name, item kind, nature, stage)
+//     TERM(name, item kind, nature, stage, family)
 //         nature  conservative: the value is an energy [J];
 //                 dissipative: it is a dissipation potential R(v) [W], force = -dR/dv
 //         stage   kernel that is launched over the term's items before each of its functions, or no_stage
+//         family  what its energy is reported with, one of EnergyFamily in host/solver/terms/energy_family.hpp
 #pragma once
 #include "terms/bending.h"
 #include "terms/bending_hysteresis.h"
@@ -20,19 +21,19 @@
 #include "terms/seam.h"
 #include "terms/spring.h"
 
-#define TERMS(TERM)                                            \
-    TERM(gravity, vertex, conservative, no_stage)              \
-    TERM(membrane, face, conservative, no_stage)               \
-    TERM(curved_membrane, face, conservative, no_stage)        \
-    TERM(spring, spring, conservative, no_stage)               \
-    TERM(bending, hinge, conservative, no_stage)               \
-    TERM(plate, hinge, conservative, plate_turns)              \
-    TERM(bending_hysteresis, hinge, conservative, no_stage)    \
-    TERM(seam, stitch, conservative, no_stage)                 \
-    TERM(damping, vertex, dissipative, no_stage)               \
-    TERM(body_contact, vertex, conservative, no_stage)         \
-    TERM(body_repulsion, vertex, conservative, no_stage)       \
-    TERM(friction, vertex, conservative, no_stage)             \
-    TERM(cloth_contact, pair, conservative, pair_frame)        \
-    TERM(cloth_repulsion, pair, conservative, repulsion_frame) \
-    TERM(cloth_friction, pair, conservative, no_stage)
+#define TERMS(TERM)                                                     \
+    TERM(gravity, vertex, conservative, no_stage, external)             \
+    TERM(membrane, face, conservative, no_stage, membrane)              \
+    TERM(curved_membrane, face, conservative, no_stage, membrane)       \
+    TERM(spring, spring, conservative, no_stage, membrane)              \
+    TERM(bending, hinge, conservative, no_stage, bending)               \
+    TERM(plate, hinge, conservative, plate_turns, bending)              \
+    TERM(bending_hysteresis, hinge, conservative, no_stage, bending)    \
+    TERM(seam, stitch, conservative, no_stage, seam)                    \
+    TERM(damping, vertex, dissipative, no_stage, damping)               \
+    TERM(body_contact, vertex, conservative, no_stage, contact)         \
+    TERM(body_repulsion, vertex, conservative, no_stage, contact)       \
+    TERM(friction, vertex, conservative, no_stage, friction)            \
+    TERM(cloth_contact, pair, conservative, pair_frame, contact)        \
+    TERM(cloth_repulsion, pair, conservative, repulsion_frame, contact) \
+    TERM(cloth_friction, pair, conservative, no_stage, friction)

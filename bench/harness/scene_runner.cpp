@@ -5,7 +5,7 @@
 #include <ctime>
 #include <limits>
 
-#include "host/scene/scene_phase.hpp"
+#include "host/scene/run_settings.hpp"
 #include "io/errors.hpp"
 #include "io/scene/read_scene.hpp"
 
@@ -22,14 +22,14 @@ SceneRunner::SceneRunner(const std::string& source, const std::vector<std::strin
     : scene_(read_scene(source, overrides)), model_(build_scene_model(scene_)),
       plan_(make_plan(scene_, model_).phases.back())
 {
-    if (plan_.queries_bodies) query_.emplace(model_.model.bodies, cloth_reach(model_.model.cloth));
+    if (plan_.queries_bodies) query_.emplace(model_.cloth_model.bodies, cloth_reach(model_.cloth_model.cloth));
 }
 
 Phase SceneRunner::make_phase(bool float_solves, const std::vector<Vec3>& velocities)
 {
-    PhaseOptions options = phase_options(scene_, model_, plan_);
+    PhaseOptions options = phase_options(scene_, model_, false);
     options.float_solves = float_solves;
-    return Phase(model_.model, options, query_ ? &*query_ : nullptr, profile_, model_.model.cloth.positions,
+    return Phase(model_.cloth_model, options, query_ ? &*query_ : nullptr, profile_, model_.cloth_model.cloth.positions,
                  velocities);
 }
 
@@ -38,7 +38,7 @@ void SceneRunner::move(Phase& phase, const RunSetting& setting, RunResult& resul
     const auto integrator = make_integrator(setting.integrator, phase);
     StepOptions steps;
     steps.longest = setting.step;
-    steps.start = 0;
+    steps.moves_boundary = true;
     steps.unstable = setting.refuse_unstable ? UnstableStep::refuse : UnstableStep::shrink;
     const auto count = [&](const StepEvent& event) {
         ++result.steps;
@@ -46,7 +46,7 @@ void SceneRunner::move(Phase& phase, const RunSetting& setting, RunResult& resul
         result.linear_iterations += event.linear_iterations;
         return true;
     };
-    if (scene_.solver.until == "equilibrium") {
+    if (scene_.until().equilibrium) {
         EquilibriumOptions options;
         options.step = steps;
         options.integrator = integrator.get();
@@ -58,12 +58,12 @@ void SceneRunner::move(Phase& phase, const RunSetting& setting, RunResult& resul
         if (!result.finished) result.message = "not at rest within solver.max_time";
         return;
     }
-    const double until = std::stod(scene_.solver.until);
+    const double until = scene_.until().time;
     StepControl control(phase, *integrator, steps);
     NewtonOptions newton;
     newton.max_iterations = setting.iterations > 0 ? setting.iterations : scene_.solver.newton_iterations;
     newton.tolerance = setting.tolerance;
-    newton.still = setting.still;
+    newton.velocity_tolerance = setting.velocity_tolerance;
     for (double time = 0; time < until - 1e-9;) {
         time += control.advance(until - time, newton, setting.iterations == 0);
         count({time, control.taken(), control.report().iterations, control.report().linear_iterations});

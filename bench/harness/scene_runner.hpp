@@ -13,41 +13,39 @@ namespace selvage {
 /// The settings in which the runs of one scene differ.
 struct RunSetting {
     std::string integrator = "implicit_euler";
-    double step = 0.02;       ///< [s]
-    double tolerance = 1e-2;  ///< Of the Newton iterations of a step, or of the equilibrium [1].
-    double still = 0;         ///< See NewtonOptions [m/s].
-    int iterations = 0;  ///< Newton iterations per step, accepted even if unconverged; 0: until the tolerance is met.
+    double step = 0.02;             ///< [s]
+    double tolerance = 1e-2;        ///< Of the Newton iterations of a step, or of the equilibrium [1].
+    double velocity_tolerance = 0;  ///< See NewtonOptions [m/s].
+    /// Newton iterations per step, accepted even if unconverged; 0: until the tolerance is met.
+    int iterations = 0;
     bool float_solves = false;
     bool refuse_unstable = true;  ///< Explicit steps above the stability limit end the run.
 };
 
-/// The result of a run.
+/// What came of it.
 struct RunResult {
     std::vector<Vec3> positions;  ///< At the end, per cloth vertex [m].
-    double wall = 0;              ///< Wall time of the steps alone, without meshing and allocation [s].
-    double cpu = 0;               ///< CPU time of the calling thread for the same [s], see thread_seconds().
+    double wall = 0;              ///< Of the steps alone, without meshing and allocation [s].
+    double cpu = 0;               ///< Of the same by thread_seconds() [s].
     int steps = 0, newton_iterations = 0, linear_iterations = 0, retries = 0;
-    bool finished = false;  ///< The run reached its end time, or equilibrium.
-    std::string message;    ///< The reason if it did not.
+    bool finished = false;  ///< Reached the end, or equilibrium.
+    std::string message;    ///< Why not.
 };
 
-/// Returns the CPU time of the calling thread so far [s]. Unlike wall time it does not depend on other programs.
+/// What the calling thread has computed so far [s]; unlike time on the wall it does not depend on who else computes.
 double thread_seconds();
 
-/// Runs one scene repeatedly from its start, with different settings and without writing files.
+/// Runs one scene again and again from its start, without files.
 class SceneRunner {
 public:
-    /// @param source, overrides  as for read_scene
-    /// @throws InputError for a scene that cannot be read or built
+    /// @param source     as for read_scene   @param overrides  likewise
     SceneRunner(const std::string& source, const std::vector<std::string>& overrides);
 
     const Scene& scene() const { return scene_; }
     const SceneModel& model() const { return model_; }
-    /// Moves the cloth to the scene's solver.until, or to equilibrium. A run that diverges or is refused does not
-    /// throw; its result has a message.
+    /// Moves the cloth to the scene's solver.until, or to equilibrium. Never throws for a run that fails.
     RunResult run(const RunSetting& setting);
-    /// Makes a phase at the scene's start, for measurements that run() does not make.
-    /// @param velocities  per cloth vertex [m/s]; empty: at rest
+    /// A phase at the scene's start, for measurements of one's own.
     Phase make_phase(bool float_solves, const std::vector<Vec3>& velocities = {});
 
 private:
@@ -60,8 +58,7 @@ private:
     Profile profile_;
 };
 
-/// Returns the root mean square distance between two shapes, divided by the root mean square displacement from the
-/// start to the reference [1]; infinite if a position is not finite.
+/// Root mean square of the distances between two shapes over that of the way from the start to the reference [1].
 double position_error(const std::vector<Vec3>& positions, const std::vector<Vec3>& reference,
                       const std::vector<Vec3>& start);
 

@@ -22,7 +22,8 @@
 #include "bench/suites/embree_pairs.hpp"
 #include "host/collision/ccd.hpp"
 #include "host/garment/sheet.hpp"
-#include "host/solver/contact/cloth_contact.hpp"
+#include "host/solver/contact/cloth_surface.hpp"
+#include "host/solver/contact/contact_tuning.hpp"
 
 namespace selvage {
 namespace {
@@ -30,8 +31,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Positions = std::vector<double>;  // component planes
 
-constexpr double gap = 0.001;        // [m]
-constexpr double used_slack = 0.15;  // of an edge, as contact uses it
+constexpr double gap = 0.001;  // [m]
 
 struct BroadPhaseOptions {
     std::vector<int> sides{66, 129};
@@ -245,7 +245,7 @@ std::vector<BroadPhaseResult> measure(const Shape& shape, int side, const BroadP
     add("embree refit", [&](auto& r, auto& p) { measure_embree(sheet, Update::refit, options, r, p); });
     add("embree rebuild", [&](auto& r, auto& p) { measure_embree(sheet, Update::rebuild, options, r, p); });
     add("own, no slack", [&](auto& r, auto& p) { measure_own(sheet, 0, options, r, p); });
-    add("own", [&](auto& r, auto& p) { measure_own(sheet, used_slack, options, r, p); });
+    add("own", [&](auto& r, auto& p) { measure_own(sheet, ContactTuning::tree_slack, options, r, p); });
     return results;
 }
 

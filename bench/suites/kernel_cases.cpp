@@ -94,7 +94,7 @@ void add_linear_solver(KernelCloth& cloth, std::vector<KernelCase>& cases)
     cases.push_back(
         operation_case(cloth, "precondition/block_jacobi", one_level, precondition, block_jacobi_bytes(pattern)));
     cases.push_back(operation_case(cloth, "precondition/multigrid", all_levels, precondition,
-                                   multigrid_bytes(pattern, cloth.transfers)));
+                                   multigrid_bytes(pattern, cloth.prolongations)));
     cases.push_back(operation_case(cloth, "dot", one_level, dot, dot_bytes(pattern)));
     cases.push_back(operation_case(cloth, "axpy", one_level, update, update_bytes(pattern)));
 }
@@ -102,7 +102,7 @@ void add_linear_solver(KernelCloth& cloth, std::vector<KernelCase>& cases)
 /// One Newton iteration of an implicit step, including the body query and the gradient that test for convergence.
 struct NewtonIteration {
     explicit NewtonIteration(KernelCloth& cloth)
-        : newton(cloth.state, cloth.params, *cloth.multigrid, cloth.contact.get(), nullptr, profile)
+        : system(cloth.state, cloth.params, profile, {.bodies = cloth.contact}), newton(system, *cloth.multigrid)
     {
     }
     NewtonReport run()
@@ -110,10 +110,11 @@ struct NewtonIteration {
         NewtonOptions options;
         options.max_iterations = 1;
         options.tolerance = 0;
-        return newton.step(step_length, options);
+        return implicit_euler_step(newton, step_length, options);
     }
 
     Profile profile;
+    System system;  // with a state of its own
     Newton newton;
 };
 
@@ -137,9 +138,10 @@ std::size_t newton_bytes(const KernelCloth& cloth, const NewtonReport& report, c
                  gradients * term_bytes(term, state, TermPart::force) +
                  calls("assemble") * term_bytes(term, state, TermPart::stiffness);
     const std::size_t direction = update_bytes(cloth.pattern) / 2;  // p = z + turn p
-    return total + std::size_t(report.linear_iterations) *
-                       (product_bytes(cloth.state, cloth.pattern) + multigrid_bytes(cloth.pattern, cloth.transfers) +
-                        3 * dot_bytes(cloth.pattern) + update_bytes(cloth.pattern) + direction);
+    return total +
+           std::size_t(report.linear_iterations) *
+               (product_bytes(cloth.state, cloth.pattern) + multigrid_bytes(cloth.pattern, cloth.prolongations) +
+                3 * dot_bytes(cloth.pattern) + update_bytes(cloth.pattern) + direction);
 }
 
 KernelCase newton_case(KernelCloth& cloth)
@@ -148,8 +150,11 @@ KernelCase newton_case(KernelCloth& cloth)
     const NewtonReport report = iteration->run();
     KernelCase kernel = vertex_case(cloth, "newton_iteration", newton_bytes(cloth, report, iteration->profile),
                                     [iteration] { iteration->run(); });
-    cloth.reset();
-    kernel.reset = [&cloth] { cloth.reset(); };
+    kernel.reset = [&cloth, iteration] {
+        cloth.reset();
+        iteration->system.state() = cloth.state;
+    };
+    kernel.reset();
     return kernel;
 }
 

@@ -9,7 +9,8 @@
 #include "host/mesh/body_tessellation.hpp"
 #include "host/model/body.hpp"
 #include "host/model/cloth_model.hpp"
-#include "host/model/transfer.hpp"
+#include "host/model/prolongation.hpp"
+#include "host/solver/contact/anchors.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/terms/cloth_state.hpp"
 #include "host/solver/terms/terms.hpp"
@@ -28,10 +29,10 @@ Params all_strengths()
     Params params;
 #define STRENGTH(name, initial, unit, meaning) values.name = 1;
 #define PARAM(name, initial, unit, meaning)
-#define TERM(term, per, nature, stage) \
-    {                                  \
-        auto& values = params.term;    \
-        term##_PARAMS(STRENGTH, PARAM) \
+#define TERM(term, per, nature, stage, family) \
+    {                                          \
+        auto& values = params.term;            \
+        term##_PARAMS(STRENGTH, PARAM)         \
     }
     TERMS(TERM)
 #undef TERM
@@ -58,7 +59,7 @@ Cloth square_sheet(int resolution)
 {
     SheetScene sheet;
     sheet.resolution = resolution;
-    sheet.mesh_family = "alternating";
+    sheet.mesh_family = MeshFamily::alternating;
     sheet.fabric = "cotton";
     return make_sheet(sheet, PinsScene{}, "", "sheet[0]");
 }
@@ -84,21 +85,17 @@ KernelCloth::KernelCloth(int vertex_count) : params(all_strengths())
     state = make_state(topology, cloth, fabrics, params, positions, velocities);
 
     make_bodies();
-    contact = std::make_unique<FabricContact>(*query, bodies, topology, cloth, fabrics, params.body_contact.gap,
-                                              contact_margin, true);
+    contact = std::make_shared<ClothBodyContact>(*query, bodies, topology, cloth, fabrics, params.body_contact.gap,
+                                                 contact_margin, true);
     contact->update(state);
     load_friction();
     put_pairs();
-    pos_ = state.pos;
-    vel_ = state.vel;
-    anchor_ = state.friction_anchor;
-    limit_ = state.friction_limit;
-    hinge_anchor_ = state.hinge_anchor;
+    keep(state, start_);
 
     pattern = make_pattern(state);
     connect_levels(cloth, topology, resolution);
     block_jacobi = make_linear_solver_double(state, {Preconditioner::block_jacobi}, {});
-    multigrid = make_linear_solver_double(state, {Preconditioner::multigrid}, transfers);
+    multigrid = make_linear_solver_double(state, {Preconditioner::multigrid}, prolongations);
 }
 
 void KernelCloth::make_bodies()
@@ -137,7 +134,8 @@ void KernelCloth::connect_levels(const Cloth& cloth, const Topology& topology, i
         resolution = (resolution + 1) / 2;
         Cloth coarse = square_sheet(resolution);
         Topology coarse_topology = make_topology(coarse, false);
-        transfers.push_back(particle_transfer(make_transfer(coarse, finer), coarse_topology, finer_topology));
+        prolongations.push_back(
+            particle_prolongation(make_prolongation(coarse, finer), coarse_topology, finer_topology));
         finer = std::move(coarse);
         finer_topology = std::move(coarse_topology);
     }
@@ -191,11 +189,7 @@ void KernelCloth::put_pairs()
 
 void KernelCloth::reset()
 {
-    state.pos = pos_;
-    state.vel = vel_;
-    state.friction_anchor = anchor_;
-    state.hinge_anchor = hinge_anchor_;
-    state.friction_limit = limit_;
+    restore(state, start_);
     contact->update(state);
 }
 

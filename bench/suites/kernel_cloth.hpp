@@ -4,8 +4,9 @@
 
 #include "host/collision/body_query.hpp"
 #include "host/model/body.hpp"
-#include "host/solver/contact/fabric_contact.hpp"
+#include "host/solver/contact/cloth_body_contact.hpp"
 #include "host/solver/linear/linear_solver.hpp"
+#include "host/solver/state/snapshot.hpp"
 #include "host/solver/state/state.hpp"
 #include "host/solver/state/topology.hpp"
 #include "host/solver/terms/params.hpp"
@@ -29,9 +30,9 @@ public:
     State state;
     std::vector<Body> bodies;
     std::unique_ptr<BodyQuery> query;
-    std::unique_ptr<FabricContact> contact;
+    std::shared_ptr<ClothBodyContact> contact;
     BlockPattern pattern;
-    ParticleTransfers transfers;                            ///< Of the multigrid levels.
+    ParticleProlongations prolongations;                    ///< Of the multigrid levels.
     std::unique_ptr<LinearSolver> block_jacobi, multigrid;  ///< In double, as by default.
 
 private:
@@ -41,7 +42,7 @@ private:
     void load_friction();
     void put_pairs();
 
-    std::vector<real> pos_, vel_, anchor_, limit_, hinge_anchor_;
+    Snapshot start_;
 };
 
 }  // namespace selvage

@@ -51,7 +51,7 @@ void find_motion(SceneRunner& runner, const PrecisionScene& scene, PrecisionRefe
                         reference_setting("rk4", 2 * reference.step)});
     reference.positions = runs[0].positions;
     reference.other = runs[1].positions;
-    const auto& start = runner.model().model.cloth.positions;
+    const auto& start = runner.model().cloth_model.cloth.positions;
     reference.refined_change = position_error(runs[2].positions, reference.positions, start);
     reference.difference = position_error(reference.other, reference.positions, start);
 }
@@ -69,7 +69,7 @@ void find_rest(SceneRunner& runner, const PrecisionScene& scene, PrecisionRefere
     const std::vector<RunResult> runs = run_all(scene, settings);
     reference.positions = runs[0].positions;
     reference.other = runs[1].positions;
-    const auto& start = runner.model().model.cloth.positions;
+    const auto& start = runner.model().cloth_model.cloth.positions;
     reference.refined_change = position_error(runs[2].positions, reference.positions, start);
     reference.difference = position_error(reference.other, reference.positions, start);
 }
@@ -86,7 +86,7 @@ void add_motions(const IntegratorInfo& info, double until, double limit, int mos
         return;
     }
     struct Iterations {
-        double tolerance, still;
+        double tolerance, velocity_tolerance;
         int most;
     };
     for (int steps = 4; steps <= most_steps; steps *= 2)
@@ -96,7 +96,7 @@ void add_motions(const IntegratorInfo& info, double until, double limit, int mos
                 if (!single && (quick || it.tolerance > 1e-3)) continue;
                 RunSetting setting = reference_setting(std::string(info.name), until / steps);
                 setting.tolerance = it.tolerance;
-                setting.still = it.still;
+                setting.velocity_tolerance = it.velocity_tolerance;
                 setting.iterations = it.most;
                 setting.float_solves = single;
                 to.push_back(setting);

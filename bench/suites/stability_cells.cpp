@@ -32,7 +32,8 @@ std::vector<std::string> overrides_of(const StabilityCell& cell, bool body)
 
 int crossings(const SceneRunner& runner, const Phase& phase, const StabilityCell& cell)
 {
-    return cell.self_contact ? int(self_intersections(phase.positions(), runner.model().model.cloth.faces).size()) : 0;
+    return cell.self_contact ? int(self_intersections(phase.positions(), runner.model().cloth_model.cloth.faces).size())
+                             : 0;
 }
 
 void begin(ViolentStart kind, double spacing, State& state)
@@ -53,7 +54,7 @@ void begin(ViolentStart kind, double spacing, State& state)
 
 int step_count(const StabilityCell& cell) { return cell.resolution > 32 ? 4 : 10; }
 
-double total_energy(Phase& phase) { return phase.newton().potential_energy() + phase.newton().kinetic_energy(); }
+double total_energy(Phase& phase) { return phase.system().potential_energy() + phase.system().kinetic_energy(); }
 
 // The potential energy that gravity can supply [J], from a fall of the given time and start speed plus 1 m.
 double gravity_reserve(const State& state, const Params& params, double time, double speed)
@@ -74,7 +75,7 @@ bool take_steps(Phase& phase, const StabilityCell& cell, StabilityResult& result
     StepControl control(phase, *integrator, steps);
     NewtonOptions newton;
     newton.max_iterations = 40;
-    newton.still = 3e-2;
+    newton.velocity_tolerance = 3e-2;
     const double start = thread_seconds(), until = step_count(cell) * cell.step;
     for (double time = 0; time < until * (1 - 1e-9);) {
         const double before = result.seconds;
@@ -108,10 +109,10 @@ bool grows(SceneRunner& runner, const std::string& integrator_name, double dt)
         for (int c = 0; c < 3; ++c)
             state.vel[c * state.size.vertex_stride + v] = 1e-9 * scatter(3 * std::uint64_t(v) + c);
     const auto integrator = make_integrator(integrator_name, phase);
-    const double before = phase.newton().kinetic_energy();
+    const double before = phase.system().kinetic_energy();
     for (int step = 0; step < 2000; ++step) {
         integrator->step(dt, {});
-        if (step % 50 == 49 && !(phase.newton().kinetic_energy() < 1e4 * before)) return true;
+        if (step % 50 == 49 && !(phase.system().kinetic_energy() < 1e4 * before)) return true;
     }
     return false;
 }
@@ -166,7 +167,7 @@ StabilityResult run_cell(const StabilityCell& cell)
     SceneRunner runner("builtin:sphere", overrides_of(cell, true));
     Phase phase = runner.make_phase(true);
     begin(cell.start, runner.model().edge_length, phase.state());
-    phase.look_around();
+    phase.system().find_contacts();
     result.tangled = crossings(runner, phase, cell);
     const double speed = cell.start == ViolentStart::hurled ? StabilityTuning::hurled_speed : 0;
     const double reserve = gravity_reserve(phase.state(), phase.params(), step_count(cell) * cell.step, speed);

@@ -11,7 +11,7 @@
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
 #include "bench/suites/precision_front.hpp"
-#include "host/scene/scene_phase.hpp"
+#include "host/scene/run_settings.hpp"
 #include "io/atomic_file.hpp"
 
 namespace selvage {
@@ -31,7 +31,7 @@ void measure_scene(const PrecisionScene& scene, bool quick, Measured& to)
     SceneRunner runner(scene.source, scene.overrides);
     std::cerr << scene.name << ": reference\n";
     PrecisionReference reference = find_reference(runner, scene);
-    const auto& start = runner.model().model.cloth.positions;
+    const auto& start = runner.model().cloth_model.cloth.positions;
     const double until = scene.at_rest ? 0 : std::stod(runner.scene().solver.until);
     double limit = 0;
     tbb::task_arena alone(1);
@@ -52,7 +52,7 @@ void measure_scene(const PrecisionScene& scene, bool quick, Measured& to)
         point.result.positions.clear();
         to.points.push_back(std::move(point));
     }
-    to.standards.push_back(integrator_of(runner.scene()));
+    to.standards.push_back(text_of(integrator_of(runner.scene())));
     to.scenes.push_back(scene);
     to.references.push_back(std::move(reference));
 }
@@ -65,7 +65,7 @@ std::string csv_text(const std::vector<PrecisionPoint>& points)
     for (const PrecisionPoint& p : points)
         text +=
             fmt::format("{},{},{:.6g},{:g},{:g},{},{},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", p.scene, p.integrator,
-                        p.setting.step, p.setting.tolerance, p.setting.still, p.setting.iterations,
+                        p.setting.step, p.setting.tolerance, p.setting.velocity_tolerance, p.setting.iterations,
                         p.setting.float_solves ? "float" : "double", p.result.cpu, p.result.wall, p.error,
                         p.result.steps, p.result.newton_iterations, p.result.linear_iterations, int(p.result.finished));
     return text;

@@ -21,13 +21,13 @@ struct Property {
 #define PROPERTY(type, name, initial, unit, low, high, meaning) {#name, unit, &Fabric::name},
 #define LIST_CURVE(name, number, measure, meaning) {#name, CurveMeasure::measure, &Fabric::name},
 #define NOT_A_KEY(name, ...)
-constexpr Property properties[] = {FABRIC_KEYS(PROPERTY, NOT_A_KEY, NOT_A_KEY)};
+constexpr Property properties[] = {FABRIC_KEYS(PROPERTY, NOT_A_KEY, NOT_A_KEY, NOT_A_KEY)};
 struct CurveProperty {
     const char* name;
     CurveMeasure measure;
     StressCurve Fabric::*curve;
 };
-constexpr CurveProperty curves[] = {FABRIC_KEYS(NOT_A_KEY, NOT_A_KEY, LIST_CURVE)};
+constexpr CurveProperty curves[] = {FABRIC_KEYS(NOT_A_KEY, NOT_A_KEY, NOT_A_KEY, LIST_CURVE)};
 #undef PROPERTY
 #undef LIST_CURVE
 #undef NOT_A_KEY

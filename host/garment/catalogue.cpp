@@ -69,7 +69,7 @@ Pattern draft_vest(const MannequinMeasures& measures, const MannequinLandmarks& 
 
 std::vector<std::string> builtin_pattern_names() { return {"tshirt", "vest"}; }
 
-Pattern builtin_pattern(const std::string& name, const std::string& size)
+Pattern builtin_pattern(const std::string& name, BodySize size)
 {
     const MannequinMeasures measures = mannequin_size(size);
     const MannequinLandmarks landmarks = mannequin_landmarks(measures);

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "io/choices.hpp"
 #include "io/pattern/pattern.hpp"
 
 namespace selvage {
@@ -14,8 +15,7 @@ std::vector<std::string> builtin_pattern_names();
 /// below. Every panel's outside faces away from the body; its warp (y) runs upwards, or up the arm. Lengths in
 /// [m], the scene's frame.
 /// @param name  one of builtin_pattern_names()
-/// @param size  "S", "M" or "L"
-/// @throws InputError for an unknown name or size
-Pattern builtin_pattern(const std::string& name, const std::string& size);
+/// @throws InputError for an unknown name
+Pattern builtin_pattern(const std::string& name, BodySize size);
 
 }  // namespace selvage

@@ -10,6 +10,7 @@
 
 #include "host/garment/outline.hpp"
 #include "host/mesh/sheet_families.hpp"
+#include "io/errors.hpp"
 
 namespace selvage {
 namespace {
@@ -25,20 +26,24 @@ Mat3 turned(const Vec3& degrees)
 }
 
 // The family of a sheet's triangles, checked.
-std::string mesh_family(const SheetScene& sheet, const std::vector<std::string>& families, const InputPlace& place)
+MeshFamily mesh_family(const SheetScene& sheet, std::span<const MeshFamily> families, const InputPlace& place)
 {
-    if (sheet.mesh_family == "automatic") return families.front();
+    if (sheet.mesh_family == MeshFamily::automatic) return families.front();
     if (std::find(families.begin(), families.end(), sheet.mesh_family) != families.end()) return sheet.mesh_family;
     std::string expected;
-    for (const std::string& family : families)
-        expected += (expected.empty() ? "" : family == families.back() ? " or " : ", ") + family;
-    throw InputError({place.file, 0, 0, place.key + ".mesh_family"}, "`" + sheet.mesh_family + "`",
-                     expected + ", for a " + sheet.shape, nearest_name(sheet.mesh_family, families));
+    std::vector<std::string> names;
+    for (const MeshFamily family : families) {
+        names.push_back(text_of(family));
+        expected += (expected.empty() ? "" : family == families.back() ? " or " : ", ") + names.back();
+    }
+    const std::string found = text_of(sheet.mesh_family);
+    throw InputError({place.file, 0, 0, place.key + ".mesh_family"}, "`" + found + "`",
+                     expected + ", for a " + text_of(sheet.shape), nearest_name(found, names));
 }
 
 SheetMesh rectangle(const SheetScene& sheet, const InputPlace& place)
 {
-    const std::string family = mesh_family(sheet, rectangle_families(), place);
+    const MeshFamily family = mesh_family(sheet, rectangle_families(), place);
     const double rows = (sheet.resolution - 1) * sheet.height / sheet.width + 1;
     if (sheet.resolution * rows > 1e9)
         throw InputError({place.file, 0, 0, place.key + ".resolution"},
@@ -121,8 +126,18 @@ std::array<int, 4> corner_vertices(const std::vector<Vec2>& points, const Vec2& 
             nearest_vertex(points, Vec2(low.x(), high.y())), nearest_vertex(points, high)};
 }
 
-// The vertices of a sheet that a word of pins.sheet or pins.motion.group names, sorted.
-std::set<int> group_vertices(const std::string& group, const Cloth& cloth, const InputPlace& place)
+// These vertices and all that share a face with one of them.
+std::set<int> with_their_faces(const std::set<int>& vertices, const Cloth& cloth)
+{
+    std::set<int> all = vertices;
+    for (const Face& face : cloth.faces)
+        if (std::any_of(face.begin(), face.end(), [&](int vertex) { return vertices.count(vertex) > 0; }))
+            all.insert(face.begin(), face.end());
+    return all;
+}
+
+// The vertices of a sheet that pins.sheet or pins.motion.group names, sorted.
+std::set<int> group_vertices(PinGroup group, const Cloth& cloth)
 {
     const std::vector<Vec2>& points = cloth.panel_coordinates;
     Vec2 low = points.front(), high = points.front();
@@ -138,27 +153,32 @@ std::set<int> group_vertices(const std::string& group, const Cloth& cloth, const
         return held;
     };
     const std::array<int, 4> corners = corner_vertices(points, low, high);
-    if (group == "none") return {};
-    if (group == "corners") return {corners.begin(), corners.end()};
-    if (group == "top_corners") return {corners[2], corners[3]};
-    if (group == "right_corners") return {corners[1], corners[3]};
-    if (group == "top_edge") return edge(1, high.y());
-    if (group == "left_edge") return edge(0, low.x());
-    if (group == "right_edge") return edge(0, high.x());
-    if (group == "center") return {nearest_vertex(points, 0.5 * (low + high))};
-    if (group != "two_rows")
-        throw InputError(place, "`" + group + "`", "a group of vertices, which `selvage schema` lists");
-    const std::set<int> first = edge(0, low.x());
-    std::set<int> held = first;
-    for (const Face& face : cloth.faces)
-        if (std::any_of(face.begin(), face.end(), [&](int vertex) { return first.count(vertex) > 0; }))
-            held.insert(face.begin(), face.end());
-    return held;
+    switch (group) {
+        case PinGroup::none:
+            return {};
+        case PinGroup::corners:
+            return {corners.begin(), corners.end()};
+        case PinGroup::top_corners:
+            return {corners[2], corners[3]};
+        case PinGroup::right_corners:
+            return {corners[1], corners[3]};
+        case PinGroup::top_edge:
+            return edge(1, high.y());
+        case PinGroup::left_edge:
+            return edge(0, low.x());
+        case PinGroup::right_edge:
+            return edge(0, high.x());
+        case PinGroup::center:
+            return {nearest_vertex(points, 0.5 * (low + high))};
+        case PinGroup::two_rows:
+            return with_their_faces(edge(0, low.x()), cloth);
+    }
+    return {};
 }
 
 void pin(const PinsScene& pins, Cloth& cloth, const std::string& file)
 {
-    std::set<int> held = group_vertices(pins.sheet, cloth, {file, 0, 0, "pins.sheet"});
+    std::set<int> held = group_vertices(pins.sheet, cloth);
     for (const int vertex : listed_vertices(pins.vertices, int(cloth.panel_coordinates.size()), file))
         held.insert(vertex);
     cloth.pinned.assign(held.begin(), held.end());
@@ -206,9 +226,9 @@ void orient(Cloth& cloth, const InputPlace& place)
 Cloth make_sheet(const SheetScene& sheet, const PinsScene& pins, const std::string& file, const std::string& key)
 {
     const InputPlace place{file, 0, 0, key};
-    if (sheet.shape != "rectangle" && sheet.shape != "disc")
-        throw InputError({file, 0, 0, key + ".shape"}, "`" + sheet.shape + "`", "rectangle or disc");
-    SheetMesh mesh = sheet.shape == "rectangle"
+    if (sheet.shape == SheetShape::mesh)
+        throw InputError({file, 0, 0, key + ".shape"}, "`" + text_of(sheet.shape) + "`", "rectangle or disc");
+    SheetMesh mesh = sheet.shape == SheetShape::rectangle
                          ? rectangle(sheet, place)
                          : disc_mesh(mesh_family(sheet, disc_families(), place), sheet.radius, sheet.resolution);
     Cloth cloth;
@@ -251,13 +271,11 @@ Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture
     return cloth;
 }
 
-void add_pin_motions(Cloth& sheet, const std::vector<PinMotionScene>& motions, const std::string& file)
+void add_pin_motions(Cloth& sheet, const std::vector<PinMotionScene>& motions)
 {
     std::set<int> held(sheet.pinned.begin(), sheet.pinned.end());
-    for (std::size_t k = 0; k < motions.size(); ++k) {
-        const PinMotionScene& motion = motions[k];
-        const std::set<int> group =
-            group_vertices(motion.group, sheet, {file, 0, 0, "pins.motion[" + std::to_string(k) + "].group"});
+    for (const PinMotionScene& motion : motions) {
+        const std::set<int> group = group_vertices(find_word<PinGroup>(word_of(motion.group)).value(), sheet);
         held.insert(group.begin(), group.end());
         sheet.pin_motions.push_back({{group.begin(), group.end()},
                                      motion.start,

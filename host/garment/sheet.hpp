@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "host/model/cloth.hpp"
-#include "io/scene/scene.hpp"
+#include "io/scene/scene_tables.hpp"
 
 namespace selvage {
 
@@ -13,7 +13,7 @@ namespace selvage {
 /// @param pins   which vertices are held; `pins.vertices` are indices into this sheet
 /// @param file   scene file for messages
 /// @param key    key path of the sheet, such as `sheet[0]`; the panel is named after it
-/// @throws InputError for an unknown word, a mesh family of another shape or a pinned vertex that does not exist
+/// @throws InputError for a mesh family of another shape or a pinned vertex that does not exist
 Cloth make_sheet(const SheetScene& sheet, const PinsScene& pins, const std::string& file, const std::string& key);
 
 /// Makes a sheet from a mesh: its middle (of the bounding box) starts at the sheet's centre.
@@ -24,6 +24,6 @@ Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture
                       const PinsScene& pins, const std::string& file, const std::string& key);
 
 /// Holds the groups of a sheet's vertices that move, and notes how they do.
-void add_pin_motions(Cloth& sheet, const std::vector<PinMotionScene>& motions, const std::string& file);
+void add_pin_motions(Cloth& sheet, const std::vector<PinMotionScene>& motions);
 
 }  // namespace selvage

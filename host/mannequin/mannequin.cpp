@@ -61,14 +61,11 @@ void name_parts(TriangleMesh& mesh, const MannequinShape& shape)
 
 }  // namespace
 
-MannequinMeasures mannequin_size(const std::string& size)
+MannequinMeasures mannequin_size(BodySize size)
 {
-    if (size == "S") return {1.66, 0.84, 0.66, 0.93, 0.385, 0.335, 0.580, 45};
-    if (size == "M") return {};
-    if (size == "L") return {1.74, 1.00, 0.83, 1.08, 0.415, 0.370, 0.610, 45};
-    InputPlace place;
-    place.key = "body.size";
-    throw InputError(place, fmt::format("\"{}\"", size), "S, M or L");
+    if (size == BodySize::S) return {1.66, 0.84, 0.66, 0.93, 0.385, 0.335, 0.580, 45};
+    if (size == BodySize::L) return {1.74, 1.00, 0.83, 1.08, 0.415, 0.370, 0.610, 45};
+    return {};
 }
 
 TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace& body)

@@ -65,12 +65,12 @@ void irregular_faces(SheetMesh& mesh, int columns, int rows, const Vec2& spacing
     std::sort(mesh.faces.begin(), mesh.faces.end());
 }
 
-bool falling_diagonal(const std::string& family, int i, int j)
+bool falling_diagonal(MeshFamily family, int i, int j)
 {
-    return (family == "alternating" && (i + j) % 2 == 1) || (family == "rows" && j % 2 == 1);
+    return (family == MeshFamily::alternating && (i + j) % 2 == 1) || (family == MeshFamily::rows && j % 2 == 1);
 }
 
-void diagonal_faces(SheetMesh& mesh, const std::string& family, int columns, int rows)
+void diagonal_faces(SheetMesh& mesh, MeshFamily family, int columns, int rows)
 {
     mesh.faces.reserve(2 * std::size_t(columns - 1) * (rows - 1));
     for (int j = 0; j + 1 < rows; ++j)
@@ -135,16 +135,16 @@ SheetMesh equilateral_mesh(double width, double height, int columns)
 
 // Returns the points of a lattice inside the disc, row by row. In `equilateral` every second row is shifted by
 // half a spacing.
-std::vector<Vec2> disc_lattice(const std::string& family, double radius, double spacing)
+std::vector<Vec2> disc_lattice(MeshFamily family, double radius, double spacing)
 {
-    const bool triangles = family == "equilateral";
+    const bool triangles = family == MeshFamily::equilateral;
     const double rise = triangles ? spacing * 0.5 * std::numbers::sqrt3 : spacing;
     const int half = int(radius / rise) + 2;
     std::vector<Vec2> points;
     for (int j = -half; j <= half; ++j)
         for (int i = -half; i <= half; ++i) {
             Vec2 point(spacing * (i + (triangles && j % 2 != 0 ? 0.5 : 0.0)), rise * j);
-            if (family == "irregular") point += spacing * scattered((j + half) * (2 * half + 1) + i + half);
+            if (family == MeshFamily::irregular) point += spacing * scattered((j + half) * (2 * half + 1) + i + half);
             if (point.norm() < radius - rim_distance * spacing) points.push_back(point);
         }
     return points;
@@ -152,33 +152,35 @@ std::vector<Vec2> disc_lattice(const std::string& family, double radius, double 
 
 }  // namespace
 
-const std::vector<std::string>& rectangle_families()
+std::span<const MeshFamily> rectangle_families()
 {
-    static const std::vector<std::string> names = {"alternating", "same_diagonal", "rows",
-                                                   "cross",       "equilateral",   "irregular"};
-    return names;
+    static constexpr MeshFamily families[] = {MeshFamily::alternating, MeshFamily::same_diagonal,
+                                              MeshFamily::rows,        MeshFamily::cross,
+                                              MeshFamily::equilateral, MeshFamily::irregular};
+    return families;
 }
 
-const std::vector<std::string>& disc_families()
+std::span<const MeshFamily> disc_families()
 {
-    static const std::vector<std::string> names = {"panel", "equilateral", "square", "irregular"};
-    return names;
+    static constexpr MeshFamily families[] = {MeshFamily::panel, MeshFamily::equilateral, MeshFamily::square,
+                                              MeshFamily::irregular};
+    return families;
 }
 
-SheetMesh rectangle_mesh(const std::string& family, double width, double height, int columns)
+SheetMesh rectangle_mesh(MeshFamily family, double width, double height, int columns)
 {
-    if (family == "equilateral") return equilateral_mesh(width, height, columns);
+    if (family == MeshFamily::equilateral) return equilateral_mesh(width, height, columns);
     const int rows = std::max(2, int(std::lround((columns - 1) * height / width)) + 1);
-    if (family == "cross") return cross_mesh(width, height, columns, rows);
+    if (family == MeshFamily::cross) return cross_mesh(width, height, columns, rows);
     SheetMesh mesh = grid_points(width, height, columns, rows);
-    if (family == "irregular")
+    if (family == MeshFamily::irregular)
         irregular_faces(mesh, columns, rows, Vec2(width / (columns - 1), height / (rows - 1)));
     else
         diagonal_faces(mesh, family, columns, rows);
     return mesh;
 }
 
-SheetMesh disc_mesh(const std::string& family, double radius, int across)
+SheetMesh disc_mesh(MeshFamily family, double radius, int across)
 {
     const double spacing = 2 * radius / (across - 1);
     const int rim = std::max(6, int(std::lround(2 * std::numbers::pi * radius / spacing)));
@@ -188,7 +190,7 @@ SheetMesh disc_mesh(const std::string& family, double radius, int across)
         points.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
     }
     SheetMesh mesh;
-    if (family == "panel") {
+    if (family == MeshFamily::panel) {
         PanelMesh panel = mesh_panel(points, spacing);
         mesh = {std::move(panel.vertices), std::move(panel.faces)};
     } else {

@@ -1,7 +1,8 @@
 #pragma once
-#include <string>
+#include <span>
 #include <vector>
 
+#include "io/choices.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
@@ -12,24 +13,24 @@ struct SheetMesh {
     std::vector<Face> faces;   ///< Counter-clockwise.
 };
 
-/// Names of the triangulations of a rectangle.
+/// The triangulations of a rectangle, the default first.
 ///     alternating, same_diagonal, rows   squares with one diagonal each; rows: its direction changes from row to row
 ///     cross                              squares with both diagonals and a vertex where they meet
 ///     equilateral                        rows of equal triangles, halved at the left and right edge
 ///     irregular                          Delaunay triangles of points that are jittered off a grid
-const std::vector<std::string>& rectangle_families();
-/// Names of the triangulations of a disc. Its vertices lie on the rim and, inside it, on a lattice (equilateral,
-/// square), on a jittered grid (irregular), or where the panel mesher puts them (panel).
-const std::vector<std::string>& disc_families();
+std::span<const MeshFamily> rectangle_families();
+/// The triangulations of a disc, the default first. Its vertices lie on the rim and, inside it, on a lattice
+/// (equilateral, square), on a jittered grid (irregular), or where the panel mesher puts them (panel).
+std::span<const MeshFamily> disc_families();
 
 /// Returns a rectangle mesh.
 /// @param columns  vertices along the width, >= 2; the number of rows makes the triangles about as high as wide
 /// @param family   one of rectangle_families()
-SheetMesh rectangle_mesh(const std::string& family, double width, double height, int columns);
+SheetMesh rectangle_mesh(MeshFamily family, double width, double height, int columns);
 
 /// Returns a disc mesh.
 /// @param across  vertices across the diameter
 /// @param family  one of disc_families()
-SheetMesh disc_mesh(const std::string& family, double radius, int across);
+SheetMesh disc_mesh(MeshFamily family, double radius, int across);
 
 }  // namespace selvage

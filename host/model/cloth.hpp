@@ -69,7 +69,7 @@ void append_cloth(Cloth& to, const Cloth& other);
 double typical_edge(const Cloth& cloth);
 
 /// A prolongation: linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.
-struct Transfer {
+struct Prolongation {
     std::vector<int> offset;     ///< Fine vertex count + 1.
     std::vector<int> column;     ///< Coarse vertex.
     std::vector<double> weight;  ///< Non-negative; each row sums to 1.

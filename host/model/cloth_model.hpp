@@ -16,8 +16,8 @@ using FabricTable = std::map<std::string, Fabric>;
 /// the next finer one.
 struct ClothModel {
     Cloth cloth;
-    std::vector<Cloth> coarser;       ///< From fine to coarse; may be empty.
-    std::vector<Transfer> transfers;  ///< From coarser[k] to the next finer cloth.
+    std::vector<Cloth> coarser;               ///< From fine to coarse; may be empty.
+    std::vector<Prolongation> prolongations;  ///< From coarser[k] to the next finer cloth.
     FabricTable fabrics;
     std::vector<Body> bodies;
 };

@@ -104,4 +104,11 @@ double max_items(int count, const Body& body)
         [](double a, double b) { return std::max(a, b); });
 }
 
+/// Returns the largest `Kernel(item, &args)` over [0, count); see max_items.
+template <auto Kernel, class Args>
+double launch_max(int count, const Args& args)
+{
+    return max_items(count, [args](int item) { return Kernel(item, &args); });
+}
+
 }  // namespace selvage

@@ -9,6 +9,7 @@
 #include "host/run/run.hpp"
 #include "host/run/run_recorder.hpp"
 #include "host/scene/plan.hpp"
+#include "host/scene/run_settings.hpp"
 #include "host/scene/scene_model.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/sewing.hpp"
@@ -22,16 +23,17 @@ public:
     RunOutcome execute();
 
 private:
-    void start_phase(const std::string& name, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
+    /// @param stage  sew: with panels apart; another: with seams joined
+    void start_phase(RunStage stage, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
     void begin();
-    void start_afresh(const std::string& progress);
+    void start_afresh(RunStage stage);
     void resume();
     void save();
     PhaseEnd run_phases();
     PhaseEnd run_sewing();
     void join_seams();
     PhaseEnd run_pressing();
-    EquilibriumOptions draping_options();
+    EquilibriumOptions draping_options() const;
     PhaseEnd run_coarse();
     PhaseEnd run_draping();
     bool after_step(const StepEvent& event);
@@ -45,11 +47,11 @@ private:
 
     std::string checkpoint_path() const { return options_.folder + "/checkpoint.h5"; }
 
-    const Scene& scene_;
     RunOptions options_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
     SceneModel model_;
     RunPlan plan_;
+    RunSettings settings_;
     Profile profile_;
     std::optional<BodyQuery> query_;
     std::unique_ptr<Phase> phase_;

@@ -13,7 +13,7 @@ struct StretchMeasure {
     double p99 = 0;  ///< Magnitude below which 99 % of the principal stretches lie.
 };
 
-/// How much sewing and draping changed a panel: |now - flat| / flat [1] (A13).
+/// How much sewing and draping changed a panel: |now - flat| / flat [1].
 struct PanelMeasure {
     std::string name;
     double area_error = 0, boundary_error = 0;

@@ -8,9 +8,7 @@
 #include "host/model/body.hpp"
 #include "host/parallel/launch.hpp"
 #include "host/run/cloth_picture.hpp"
-#include "host/scene/plan_reasons.hpp"
-#include "host/scene/scene_phase.hpp"
-#include "host/solver/contact/fabric_contact.hpp"
+#include "host/solver/contact/cloth_body_contact.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -20,44 +18,44 @@ constexpr double most_tangled = 0.01;  // intersections per triangle with which 
 
 // What hangs freely is near its rest in the shape that was carried over: the static energy is tried before any motion.
 // Cloth that lies on bodies has folds that only the finer mesh can make, and is not.
-DrapeProgress after_carrying(double time, bool lies_on_bodies)
+DrapeProgress after_carrying(bool lies_on_bodies)
 {
     DrapeProgress progress;
-    progress.time = time;
     if (!lies_on_bodies) progress.residual = progress.switch_residual;
     return progress;
 }
 
 // One coarser cloth on its way to rest.
 struct Stage {
-    const Scene& scene;
+    const ClothSettings& settings;
     SceneModel model;
-    RunPlan plan = make_plan(scene, model);
     std::optional<BodyQuery> query;
     std::unique_ptr<Phase> phase;
 
-    Stage(const Scene& of, const SceneModel& finest, std::size_t level) : scene(of), model(coarser_model(finest, level))
+    Stage(const RunSettings& run, const SceneModel& finest, std::size_t level)
+        : settings(run.coarser[level]), model(coarser_model(finest, level))
     {
-        if (plan.phases.back().queries_bodies) query.emplace(model.model.bodies, cloth_reach(finest.model.cloth));
+        if (meets_bodies(settings.draping.params))
+            query.emplace(model.cloth_model.bodies, cloth_reach(finest.cloth_model.cloth));
     }
 
-    void start(const PhasePlan& with, const std::vector<Vec3>& positions, Profile& profile)
+    void start(const PhaseOptions& options, const std::vector<Vec3>& positions, Profile& profile)
     {
         phase.reset();
-        phase = std::make_unique<Phase>(model.model, phase_options(scene, model, with), query ? &*query : nullptr,
-                                        profile, positions, std::vector<Vec3>{});
+        phase = std::make_unique<Phase>(model.cloth_model, options, query ? &*query : nullptr, profile, positions,
+                                        std::vector<Vec3>{});
     }
 };
 
 // Sews a garment at this stage and presses its seams.
 PhaseEnd sew_stage(Stage& stage, Profile& profile, const AfterStep& after_step)
 {
-    const SewingOptions options = sewing_options(stage.scene, stage.plan);
+    const SewingOptions& options = stage.settings.sew;
     SewingProgress sewing;
-    stage.start(stage.plan.phases.front(), stage.model.model.cloth.positions, profile);
+    stage.start(stage.settings.sewing, stage.model.cloth_model.cloth.positions, profile);
     const PhaseEnd end = sew(*stage.phase, options, sewing, after_step);
     if (end != PhaseEnd::reached) return end;
-    stage.start(stage.plan.phases.back(), stage.phase->positions(), profile);
+    stage.start(stage.settings.draping, stage.phase->positions(), profile);
     PressProgress pressing;
     return press_seams(*stage.phase, options.step, pressing, after_step);
 }
@@ -65,9 +63,12 @@ PhaseEnd sew_stage(Stage& stage, Profile& profile, const AfterStep& after_step)
 // @param sews  the garment has not been sewn yet
 // Returns whether the run goes on.
 bool drape_stage(Stage& stage, bool sews, const std::vector<Vec3>& positions, const EquilibriumOptions& options,
-                 DrapeProgress& progress, Profile& profile, const AfterStep& after_step, CoarseStage& report)
+                 Clock& clock, DrapeProgress& progress, Profile& profile, const AfterStep& after_step,
+                 CoarseStage& report)
 {
+    bool drapes = false;
     const AfterStep hear = [&](const StepEvent& event) {
+        if (drapes) clock.time = event.time;
         report.newton_iterations += event.newton_iterations;
         report.linear_iterations += event.linear_iterations;
         return after_step(event);
@@ -77,17 +78,21 @@ bool drape_stage(Stage& stage, bool sews, const std::vector<Vec3>& positions, co
         if (sews)
             end = sew_stage(stage, profile, hear);
         else
-            stage.start(stage.plan.phases.back(), positions, profile);
+            stage.start(stage.settings.draping, positions, profile);
         if (end == PhaseEnd::reached) {
-            const std::unique_ptr<Integrator> integrator = make_integrator(integrator_of(stage.scene), *stage.phase);
+            const std::unique_ptr<Integrator> integrator =
+                make_integrator(options.integrator->info().name, *stage.phase);
             EquilibriumOptions own = options;
             own.integrator = integrator.get();
             own.only_balances = stage.query.has_value();
+            stage.phase->system().clock() = clock;
+            drapes = true;
             end = drape_to_equilibrium(*stage.phase, own, progress, hear);
         }
         if (end == PhaseEnd::stopped) return false;
         report.used = end == PhaseEnd::reached || !sews;
-        report.residual = stage.phase->newton().static_residual();
+        stage.phase->system().refresh_pairs();
+        report.residual = stage.phase->system().residual();
     } catch (const DivergenceError&) {
         report.used = false;
     }
@@ -107,44 +112,43 @@ int intersections_of(const Cloth& cloth, const std::vector<Body>& bodies, const 
 
 }  // namespace
 
-std::vector<Vec3> carry_over(const Cloth& fine, const Transfer& transfer, const std::vector<Vec3>& positions)
+std::vector<Vec3> carry_over(const Cloth& fine, const Prolongation& prolongation, const std::vector<Vec3>& positions)
 {
     std::vector<Vec3> result(fine.positions.size());
     for_each_item(int(result.size()), [&, to = result.data()](int v) {
         to[v] = Vec3::Zero();
-        for (int k = transfer.offset[v]; k < transfer.offset[v + 1]; ++k)
-            to[v] += transfer.weight[k] * positions[transfer.column[k]];
+        for (int k = prolongation.offset[v]; k < prolongation.offset[v + 1]; ++k)
+            to[v] += prolongation.weight[k] * positions[prolongation.column[k]];
     });
     for (int v : fine.pinned) result[v] = fine.positions[v];
     return result;
 }
 
-CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, const EquilibriumOptions& options,
-                               DrapeProgress& progress, Profile& profile, const AfterStep& after_step)
+CoarseStart drape_coarse_first(const RunSettings& settings, const SceneModel& model, const EquilibriumOptions& options,
+                               Clock& clock, DrapeProgress& progress, Profile& profile, const AfterStep& after_step)
 {
     CoarseStart start;
-    for (std::size_t level = levels_used(scene, model); level-- > 0;) {
+    for (std::size_t level = settings.coarser.size(); level-- > 0;) {
         const TraceScope scope("coarse_" + std::to_string(level + 1));
         const auto begin = std::chrono::steady_clock::now();
-        Stage stage(scene, model, level);
-        const Cloth &own = stage.model.model.cloth,
-                    &finer = level == 0 ? model.model.cloth : model.model.coarser[level - 1];
+        Stage stage(settings, model, level);
+        const Cloth &own = stage.model.cloth_model.cloth,
+                    &finer = level == 0 ? model.cloth_model.cloth : model.cloth_model.coarser[level - 1];
         const bool carried = !start.positions.empty();
         CoarseStage report{.vertices = int(own.positions.size())};
         start.stopped = !drape_stage(stage, model.sews && !carried, carried ? start.positions : own.positions, options,
-                                     progress, profile, after_step, report);
+                                     clock, progress, profile, after_step, report);
         if (start.stopped) return start;
         if (report.used) {
-            start.positions = carry_over(finer, model.model.transfers[level], stage.phase->positions());
+            start.positions = carry_over(finer, model.cloth_model.prolongations[level], stage.phase->positions());
             if (stage.phase->cloth_contact())
-                report.intersections = intersections_of(finer, model.model.bodies, start.positions);
+                report.intersections = intersections_of(finer, model.cloth_model.bodies, start.positions);
         }
         // Garments can be untangled.
         const double most = model.sews ? most_tangled * double(finer.faces.size()) : 0;
         report.used = report.used && report.intersections <= most;
         if (!report.used) start.positions.clear();
-        progress = report.used ? after_carrying(progress.time, !model.model.bodies.empty())
-                               : DrapeProgress{.time = progress.time};
+        progress = report.used ? after_carrying(!model.cloth_model.bodies.empty()) : DrapeProgress{};
         report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         start.stages.push_back(report);
     }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/plan.hpp"
+#include "host/scene/run_settings.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 
 namespace selvage {
@@ -31,16 +31,17 @@ struct CoarseStart {
 /// Where cloth must not pass through itself or a body, a carried shape that does is dropped, as is that of a stage that
 /// diverged: the finer cloth then starts as the scene says. A garment may start with a few intersections: it is
 /// untangled. Source: Zhang and others 2022, progressive cloth quasistatics.
-/// @param options   of the run itself; its integrator is not used
-/// @param progress  its time goes on from stage to stage
-CoarseStart drape_coarse_first(const Scene& scene, const SceneModel& model, const EquilibriumOptions& options,
-                               DrapeProgress& progress, Profile& profile, const AfterStep& after_step);
+/// @param settings  of the run: they say how many coarser cloths are draped
+/// @param options   of the drape of the run itself; every coarser cloth has an integrator of the same kind
+/// @param clock     of the run: goes on from stage to stage
+CoarseStart drape_coarse_first(const RunSettings& settings, const SceneModel& model, const EquilibriumOptions& options,
+                               Clock& clock, DrapeProgress& progress, Profile& profile, const AfterStep& after_step);
 
 /// Interpolates a shape of a coarser cloth, linearly: the fine edges are then as stretched as the coarse ones. A
 /// smoother surface would be longer than its chords, and cloth resists that far more than the creases that are left
 /// behind (an interpolation exact for quadratic shapes took 12 Newton iterations in place of 7 on a hanging sheet).
 /// Held vertices of the fine cloth stay where they are.
 /// @param positions  per coarse vertex [m]
-std::vector<Vec3> carry_over(const Cloth& fine, const Transfer& transfer, const std::vector<Vec3>& positions);
+std::vector<Vec3> carry_over(const Cloth& fine, const Prolongation& prolongation, const std::vector<Vec3>& positions);
 
 }  // namespace selvage

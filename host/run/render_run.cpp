@@ -47,7 +47,7 @@ std::vector<TriangleMesh> bodies_at(const TrajectoryReader& reader, const std::s
     const std::string file = (run.parent_path() / "body.obj").string(), &text = reader.layout().scene_text;
     // The scene's own files need not be there any more: it is read only where something may move.
     if (text.find("keyframe") == std::string::npos && text.find("sequence") == std::string::npos) {
-        if (std::filesystem::exists(file)) meshes.push_back(read_obj(file, "m", "z"));
+        if (std::filesystem::exists(file)) meshes.push_back(read_obj(file, LengthUnit::m, Axis::z));
         return meshes;
     }
     const double bodies_time = run.filename() == "sewing.h5" ? 0 : time;  // they wait until the garment is sewn

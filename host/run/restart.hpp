@@ -2,6 +2,7 @@
 #include <string>
 
 #include "host/run/run_recorder.hpp"
+#include "host/scene/run_stage.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/sewing.hpp"
 
@@ -9,7 +10,7 @@ namespace selvage {
 
 /// Everything of a run that changes while it runs, beside the particles.
 struct RunProgress {
-    std::string phase;  ///< "sew", "press", "coarse" or "drape".
+    RunStage stage = RunStage::drape;
     SewingProgress sewing;
     PressProgress pressing;
     DrapeProgress draping;

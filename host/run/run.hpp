@@ -2,9 +2,10 @@
 #include <string>
 
 #include "io/run/summary.hpp"
-#include "io/scene/scene.hpp"
 
 namespace selvage {
+
+struct Scene;
 
 struct RunOptions {
     std::string folder = "out";  ///< Where the results go; made if missing.

@@ -10,8 +10,6 @@
 #include "host/model/body.hpp"
 #include "host/run/cloth_picture.hpp"
 #include "host/run/measure.hpp"
-#include "host/scene/scene_phase.hpp"
-#include "host/solver/terms/elastic_energy.hpp"
 #include "io/errors.hpp"
 #include "io/memory.hpp"
 #include "io/mesh/mesh_obj.hpp"
@@ -34,7 +32,7 @@ void remove_file(const std::string& path)
     if (error) throw InputError({path, 0, 0, {}}, error.message(), "a file of an earlier run, or nothing");
 }
 
-TrajectoryLayout trajectory_layout(const Scene& scene, const Cloth& cloth, const Topology& topology)
+TrajectoryLayout trajectory_layout(const RunSettings& settings, const Cloth& cloth, const Topology& topology)
 {
     TrajectoryLayout layout;
     layout.point_count = int(cloth.positions.size());
@@ -46,18 +44,18 @@ TrajectoryLayout trajectory_layout(const Scene& scene, const Cloth& cloth, const
     }
     layout.rest_edge_lengths = rest_edge_lengths(cloth);
     layout.seam_pairs = cloth.seam_pairs;
-    layout.scene_text = scene.text;
-    const bool builtin = scene.file.starts_with("builtin:");
-    layout.scene_file = builtin ? scene.file : std::filesystem::absolute(scene.file).string();
+    layout.scene_text = settings.text;
+    const bool builtin = settings.file.starts_with("builtin:");
+    layout.scene_file = builtin ? settings.file : std::filesystem::absolute(settings.file).string();
     layout.version = version;
-    layout.grid = position_grid(scene.output.precision);
+    layout.grid = settings.output.precision;
     return layout;
 }
 
 }  // namespace
 
-RunRecorder::RunRecorder(const Scene& scene, const SceneModel& model, const RunOptions& options, bool resume)
-    : scene_(scene), model_(model), folder_(options.folder)
+RunRecorder::RunRecorder(const RunSettings& settings, const SceneModel& model, const RunOptions& options, bool resume)
+    : settings_(settings), model_(model), folder_(options.folder)
 {
     make_folder(folder_);
     if (!resume)
@@ -69,24 +67,25 @@ RunRecorder::RunRecorder(const Scene& scene, const SceneModel& model, const RunO
     progress.path = folder_ + "/progress.jsonl";
     progress.append = resume;
     progress.quiet = options.quiet;
-    progress.tolerance = scene.solver.tolerance;
-    if (scene.solver.until != "equilibrium") progress.end_time = std::stod(scene.solver.until);
+    progress.tolerance = settings.drape.tolerance;
+    if (!settings.until.equilibrium) progress.end_time = settings.until.time;
     progress_ = std::make_unique<ProgressReport>(progress);
 }
 
 RunRecorder::~RunRecorder() = default;
 
-void RunRecorder::open_phase(const std::string& name, const Topology& topology, int keep_frames)
+void RunRecorder::open_phase(RunStage stage, const Topology& topology, int keep_frames)
 {
-    sewing_phase_ = name == "sew";
+    sewing_phase_ = stage == RunStage::sew;
     last_frame_ = -1;
     next_frame_ = 0;
-    if (sewing_phase_ && !scene_.output.sewing) return;
+    if (sewing_phase_ && !settings_.output.sewing) return;
     const std::string path = folder_ + (sewing_phase_ ? "/sewing.h5" : "/run.h5");
     if (keep_frames >= 0)
         trajectory_.emplace(TrajectoryWriter::resume(path, keep_frames));
     else
-        trajectory_.emplace(TrajectoryWriter::create(path, trajectory_layout(scene_, model_.model.cloth, topology)));
+        trajectory_.emplace(
+            TrajectoryWriter::create(path, trajectory_layout(settings_, model_.cloth_model.cloth, topology)));
     if (keep_frames > 0) {
         last_frame_ = trajectory_->last_time();
         next_frame_ = frame_time_after(last_frame_);
@@ -95,7 +94,7 @@ void RunRecorder::open_phase(const std::string& name, const Topology& topology, 
 
 double RunRecorder::frame_time_after(double time) const
 {
-    const double interval = 1 / scene_.solver.frame_rate;
+    const double interval = 1 / settings_.frame_rate;
     return interval * (std::floor(time / interval + 1e-6) + 1);
 }
 
@@ -107,10 +106,10 @@ void RunRecorder::close_phase()
     trajectory_.reset();
 }
 
-void RunRecorder::report(const std::string& phase, const StepEvent& event, int steps)
+void RunRecorder::report(RunStage stage, const StepEvent& event, int steps)
 {
     ProgressState state;
-    state.phase = phase;
+    state.phase = word_of(stage);
     state.time = event.time;
     state.step = steps;
     state.frames = frame_count();
@@ -122,15 +121,15 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
 {
     iterations_since_frame_ += event.newton_iterations;
     relaxed_since_frame_ = relaxed_since_frame_ || (event.dt == 0 && event.newton_iterations > 0);
-    const double interval = 1 / scene_.solver.frame_rate;
-    const bool due = scene_.output.frames && event.dt > 0 && event.time >= next_frame_ - 1e-9;
+    const double interval = 1 / settings_.frame_rate;
+    const bool due = settings_.output.frames && event.dt > 0 && event.time >= next_frame_ - 1e-9;
     const bool moved = event.time > last_frame_ || relaxed_since_frame_;
     if (!trajectory_ || !(due || (force && moved))) return;
     const TraceScope scope("write_frame");
     FrameScalars scalars;
     scalars.time = event.time > last_frame_ ? event.time : last_frame_ + interval;
-    scalars.kinetic_energy = phase.newton().kinetic_energy();
-    scalars.total_energy = phase.newton().potential_energy() + scalars.kinetic_energy;
+    scalars.kinetic_energy = phase.system().kinetic_energy();
+    scalars.total_energy = phase.system().potential_energy() + scalars.kinetic_energy;
     scalars.residual = event.residual;
     scalars.wall_seconds = wall_seconds;
     scalars.contacts = phase.contact() ? phase.contact()->contact_count() : 0;
@@ -144,7 +143,7 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
 
 void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const std::vector<TriangleMesh>& bodies)
 {
-    const Cloth& cloth = model_.model.cloth;
+    const Cloth& cloth = model_.cloth_model.cloth;
     std::vector<std::vector<Face>> faces(cloth.panels.size());
     const std::vector<Face> outward = outward_faces(cloth);
     std::vector<ObjObject> objects;
@@ -164,19 +163,19 @@ void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const std::ve
     if (bodies.empty()) return;
     objects.clear();
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        objects.push_back({model_.model.bodies[b].name, bodies[b].vertices, bodies[b].faces});
+        objects.push_back({model_.cloth_model.bodies[b].name, bodies[b].vertices, bodies[b].faces});
     write_obj(folder_ + "/body.obj", objects);
 }
 
 void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topology,
                        const std::vector<TriangleMesh>& bodies)
 {
-    if (!scene_.output.picture) return;
+    if (!settings_.output.picture) return;
     const TraceScope scope("picture");
     PictureOptions options;
-    options.width = scene_.output.picture_width;
-    options.samples_per_axis = scene_.output.picture_samples;
-    draw_cloth(folder_ + "/preview.png", model_.model.cloth, bodies, positions, topology, options);
+    options.width = settings_.output.picture_width;
+    options.samples_per_axis = settings_.output.picture_samples;
+    draw_cloth(folder_ + "/preview.png", model_.cloth_model.cloth, bodies, positions, topology, options);
 }
 
 // Of the last frame as it is written, where the files allow it to be counted again.
@@ -184,11 +183,11 @@ void RunRecorder::count_intersections(RunSummary& summary, const std::vector<Vec
                                       const std::vector<TriangleMesh>& bodies) const
 {
     const TraceScope scope("count_intersections");
-    const double spacing = grid_spacing(position_grid(scene_.output.precision));
+    const double spacing = grid_spacing(settings_.output.precision);
     std::vector<Vec3> written;
     for (const Vec3& x : positions) written.push_back(written_position(x, spacing).cast<double>());
     if (!std::all_of(written.begin(), written.end(), [](const Vec3& x) { return x.allFinite(); })) return;
-    const std::vector<Face> faces = shared_faces(model_.model.cloth, topology);
+    const std::vector<Face> faces = shared_faces(model_.cloth_model.cloth, topology);
     summary.self_intersections = std::int64_t(self_intersections(written, faces).size());
     if (bodies.empty()) return;
     summary.body_intersections = 0;
@@ -203,15 +202,15 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
 {
     const std::vector<Vec3> positions = phase.positions();
     std::vector<TriangleMesh> bodies;
-    for (const Body& body : model_.model.bodies) bodies.push_back(body_mesh_at(body, time));
+    for (const Body& body : model_.cloth_model.bodies) bodies.push_back(body_mesh_at(body, time));
     write_meshes(positions, bodies);
     draw(positions, phase.topology(), bodies);
-    const Cloth& cloth = model_.model.cloth;
+    const Cloth& cloth = model_.cloth_model.cloth;
     RunSummary s;
     s.status = status;
-    s.scene = scene_.name;
+    s.scene = settings_.name;
     s.version = version;
-    s.precision = solve_precision(scene_, model_.model.cloth);
+    s.precision = word_of(settings_.precision);
     s.message = message;
     s.threads = int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     s.vertices = phase.state().size.vertex_count;
@@ -223,6 +222,7 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
     s.simulated_s = counters.simulated;
     for (const auto& [name, seconds] : counters.phases) s.phases.push_back({name, seconds});
     for (const KernelRecord& k : profile.records()) s.kernels.push_back({k.name, k.calls, k.seconds, k.items, k.bytes});
+    s.integrators = counters.integrators;
     s.active = plan.active;
     for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
     s.stability = stability;
@@ -230,11 +230,8 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
         s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds,
                                   c.intersections, c.used});
     s.residual = residual;
-    s.energy.membrane = in_plane_energy(phase.newton().terms());
-    s.energy.bending = bending_energy(phase.newton().terms());
-    s.energy.gravity = phase.newton().energy_of("gravity");
-    s.energy.contact = phase.newton().energy_of("body_contact") + phase.newton().energy_of("body_repulsion");
-    s.energy.kinetic = phase.newton().kinetic_energy();
+    const Energies energies = phase.system().energies();
+    s.energy = {energies.membrane, energies.bending, energies.gravity, energies.contact, energies.kinetic};
     const StretchMeasure stretch = measure_stretch(cloth, positions);
     s.stretch = {stretch.min, stretch.max, stretch.p99};
     if (query && !query->empty()) {

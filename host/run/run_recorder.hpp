@@ -8,6 +8,7 @@
 #include "host/run/progressive.hpp"
 #include "host/run/run.hpp"
 #include "host/scene/plan.hpp"
+#include "host/scene/run_settings.hpp"
 #include "host/scene/scene_model.hpp"
 #include "host/solver/stepping/step_control.hpp"
 #include "io/run/checkpoint.hpp"
@@ -24,6 +25,7 @@ struct RunCounters {
     int linear_iterations = 0;
     double simulated = 0;                  ///< All phases [s].
     std::map<std::string, double> phases;  ///< Wall seconds of each phase.
+    std::vector<std::string> integrators;  ///< That have moved the cloth while it draped, in their order.
 };
 
 /// Writes what a run leaves in its folder.
@@ -31,17 +33,17 @@ class RunRecorder {
 public:
     /// @param resume  keep what an earlier run left and append to it
     /// @throws InputError if the folder or a file in it cannot be written
-    RunRecorder(const Scene& scene, const SceneModel& model, const RunOptions& options, bool resume);
+    RunRecorder(const RunSettings& settings, const SceneModel& model, const RunOptions& options, bool resume);
     ~RunRecorder();
 
     /// Opens the trajectory of a phase: sewing.h5 with the panels apart, or run.h5 with sewn vertices shared.
     /// @param keep_frames  frames of an earlier run to keep; -1: start anew
-    void open_phase(const std::string& name, const Topology& topology, int keep_frames);
+    void open_phase(RunStage stage, const Topology& topology, int keep_frames);
     /// Closes the trajectory of the phase that has ended.
     void close_phase();
 
     /// Tells the user where the run stands.
-    void report(const std::string& phase, const StepEvent& event, int steps);
+    void report(RunStage stage, const StepEvent& event, int steps);
     /// Writes a line of text for the user.
     void say(const std::string& text) { progress_->message(text); }
     /// Writes a frame if one is due at this time, or if `force` and the cloth has moved since the last one.
@@ -62,7 +64,7 @@ private:
                              const std::vector<TriangleMesh>& bodies) const;
     void draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);
 
-    const Scene& scene_;
+    const RunSettings& settings_;
     const SceneModel& model_;
     std::string folder_;
     std::optional<TrajectoryWriter> trajectory_;

@@ -42,7 +42,8 @@ void add_arm_poses(const TriangleMesh& start, const MannequinMeasures& measures,
         const double next = std::isnan(key.arm_angle) ? angle : key.arm_angle;
         const int count = std::max(1, int(std::ceil(std::abs(next - angle) / degrees_per_pose)));
         for (int k = 1; k <= count; ++k) {
-            const double s = double(k) / count, part = body.interpolation == "smooth" ? s * s * (3 - 2 * s) : s;
+            const double s = double(k) / count,
+                         part = body.interpolation == Interpolation::smooth ? s * s * (3 - 2 * s) : s;
             poses.push_back({time + s * (key.time - time),
                              mannequin_with_arms(start, measures, angle + part * (next - angle)), false});
         }
@@ -86,7 +87,7 @@ std::vector<LoadedPose> mesh_poses(const Scene& scene, const BodyScene& body, co
         if (!morphs) break;
         const std::vector<Vec3>& last = poses.empty() ? start.vertices : poses.back().vertices;
         std::vector<Vec3> next = key.mesh.empty() ? last : read_pose(scene.resolve(key.mesh), body, start);
-        poses.push_back({key.time, std::move(next), body.interpolation == "smooth"});
+        poses.push_back({key.time, std::move(next), body.interpolation == Interpolation::smooth});
     }
     return poses;
 }
@@ -121,9 +122,9 @@ std::vector<Body> build_bodies(const Scene& scene)
     std::vector<Body> bodies;
     for (int i = 0; i < int(scene.bodies.size()); ++i) {
         const BodyScene& body = scene.bodies[i];
-        if (body.shape == "mannequin") {
+        if (body.shape == BodyShape::mannequin) {
             bodies.push_back(mannequin_body(scene, i));
-        } else if (body.shape == "mesh") {
+        } else if (body.shape == BodyShape::mesh) {
             bodies.push_back(mesh_body(scene, i));
         } else {
             bodies.push_back(make_body(body, scene, i));

@@ -24,7 +24,7 @@ std::string body_key(int index, const char* key) { return fmt::format("body[{}].
 Body named_body(const BodyScene& body_scene, int index)
 {
     Body body;
-    body.name = body_scene.name.empty() ? fmt::format("{}_{}", body_scene.shape, index) : body_scene.name;
+    body.name = body_scene.name.empty() ? fmt::format("{}_{}", word_of(body_scene.shape), index) : body_scene.name;
     body.center = body_scene.center;
     body.friction = body_scene.friction;
     return body;
@@ -72,18 +72,18 @@ int sphere_level(double radius)
 Body make_body(const BodyScene& body_scene, const Scene& scene, int index)
 {
     Body body = named_body(body_scene, index);
-    if (body_scene.shape == "sphere") {
+    if (body_scene.shape == BodyShape::sphere) {
         body.kind = Body::Kind::sphere;
         body.radius = body_scene.radius;
         body.mesh = sphere_mesh(body.center, body.radius, sphere_level(body.radius));
-    } else if (body_scene.shape == "plane") {
+    } else if (body_scene.shape == BodyShape::plane) {
         body.kind = Body::Kind::plane;
         if (!(body_scene.normal.norm() > least_length))
             throw InputError(scene.place(body_key(index, "normal")), vector_text(body_scene.normal),
                              "a direction that is not zero");
         body.normal = body_scene.normal.normalized();
         body.mesh = square_mesh(body.center, body.normal, drawn_plane_width);
-    } else if (body_scene.shape == "capsule") {
+    } else if (body_scene.shape == BodyShape::capsule) {
         body.kind = Body::Kind::capsule;
         body.end = body_scene.end;
         body.radius = body_scene.radius;
@@ -91,14 +91,14 @@ Body make_body(const BodyScene& body_scene, const Scene& scene, int index)
             throw InputError(scene.place(body_key(index, "end")), vector_text(body.end),
                              "a point apart from `center`; use shape = \"sphere\" for a ball");
         body.mesh = capsule_mesh(body.center, body.end, body.radius);
-    } else if (body_scene.shape == "cylinder") {
+    } else if (body_scene.shape == BodyShape::cylinder) {
         body.mesh = cylinder_mesh(body.center, body_scene.radius, body_scene.height);
-    } else if (body_scene.shape == "cone") {
+    } else if (body_scene.shape == BodyShape::cone) {
         body.mesh = cone_mesh(body.center, body_scene.radius, body_scene.height);
-    } else if (body_scene.shape == "torus") {
+    } else if (body_scene.shape == BodyShape::torus) {
         body.mesh = torus_mesh(body.center, body_scene.normal.normalized(), body_scene.radius, body_scene.tube);
     } else {
-        throw std::logic_error("make_body: shape \"" + body_scene.shape + "\" needs a loaded mesh");
+        throw std::logic_error("make_body: shape \"" + text_of(body_scene.shape) + "\" needs a loaded mesh");
     }
     return body;
 }
@@ -123,8 +123,8 @@ void add_motion(Body& body, const BodyScene& body_scene, std::vector<LoadedPose>
     if (rigid) keys.push_back({});
     for (const KeyframeScene& key : body_scene.keyframes)
         if (rigid) keys.push_back({key.time, key.translation, key.rotation * (std::numbers::pi / 180)});
-    auto motion =
-        std::make_shared<BodyMotion>(std::move(keys), body_scene.interpolation == "smooth", body_scene.center);
+    auto motion = std::make_shared<BodyMotion>(std::move(keys), body_scene.interpolation == Interpolation::smooth,
+                                               body_scene.center);
     if (!poses.empty()) motion->add_pose(0, body.mesh.vertices, false);
     for (LoadedPose& pose : poses) {
         place(body_scene, pose.vertices);

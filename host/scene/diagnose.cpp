@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "host/collision/body_query.hpp"
 #include "host/mesh/self_intersections.hpp"
 #include "host/model/body.hpp"
 #include "host/model/cloth_model.hpp"
@@ -141,12 +142,13 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
 {
     const SceneModel model = build_scene_model(scene);
     check_memory(scene, make_plan(scene, model));
-    std::vector<Finding> findings{find_penetrations(model.model), find_crossed_cloth(model.model.cloth),
-                                  find_bad_triangles(model.model.cloth), find_odd_size(model.model.cloth)};
-    for (const Body& body : model.model.bodies) findings.push_back(find_crossed_body(model.model.cloth, body));
+    std::vector<Finding> findings{find_penetrations(model.cloth_model), find_crossed_cloth(model.cloth_model.cloth),
+                                  find_bad_triangles(model.cloth_model.cloth), find_odd_size(model.cloth_model.cloth)};
+    for (const Body& body : model.cloth_model.bodies)
+        findings.push_back(find_crossed_body(model.cloth_model.cloth, body));
     for (const std::string& warning : model.warnings) findings.push_back({"warning", warning, {}});
     std::erase_if(findings, [](const Finding& finding) { return finding.text.empty(); });
-    if (!picture_path.empty()) draw(model.model, findings, picture_path);
+    if (!picture_path.empty()) draw(model.cloth_model, findings, picture_path);
 
     Diagnosis diagnosis;
     diagnosis.clean = findings.empty();
@@ -158,9 +160,9 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
         if (!finding.pairs.empty()) json["findings"].back()["pairs"] = finding.pairs;
     }
     if (findings.empty())
-        diagnosis.text =
-            fmt::format("{}: nothing found ({} vertices, {} triangles, typical edge {:.1f} mm)\n", scene.name,
-                        model.model.cloth.positions.size(), model.model.cloth.faces.size(), 1000 * model.edge_length);
+        diagnosis.text = fmt::format("{}: nothing found ({} vertices, {} triangles, typical edge {:.1f} mm)\n",
+                                     scene.name, model.cloth_model.cloth.positions.size(),
+                                     model.cloth_model.cloth.faces.size(), 1000 * model.edge_length);
     diagnosis.json = json.dump(2) + "\n";
     return diagnosis;
 }

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 
 #include "host/model/body.hpp"
-#include "host/scene/plan_reasons.hpp"
-#include "host/scene/scene_params.hpp"
+#include "host/scene/features.hpp"
+#include "host/scene/run_settings.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/terms/cloth_state.hpp"
-#include "host/solver/terms/rules.hpp"
+#include "host/solver/terms/velocity_filters.hpp"
 
 namespace selvage {
 namespace {
@@ -18,50 +19,67 @@ namespace {
 // Entries of the plate's matrix per hinge on irregular meshes, where it is fullest.
 constexpr int couplings_per_hinge = 28;
 
-std::size_t solver_estimate(const Scene& scene, const mesh_sizes& size, bool levels)
+std::size_t solver_estimate(const Scene& scene, const Cloth& cloth, const mesh_sizes& size, bool levels)
 {
-    const std::size_t scalar = scene.solver.precision == "float" ? 4 : 8;
+    const std::size_t scalar = solve_precision(scene, cloth) == PrecisionChoice::in_float ? 4 : 8;
     const std::size_t blocks = std::size_t(size.vertex_count) + 2 * std::size_t(size.face_count) * 3 / 2 +
                                2 * std::size_t(size.hinge_count) + 2 * std::size_t(size.spring_count);
     const std::size_t matrix = blocks * (9 * scalar + 4) + std::size_t(size.vertex_count) * (9 + 15) * scalar;
-    const std::size_t places = 2 * (9 * std::size_t(size.face_count) + 16 * std::size_t(size.hinge_count) +
-                                    4 * std::size_t(size.spring_count));
+    std::size_t places = 0;
+#define ADD_PLACES(kind, corners) places += sizeof(std::uint16_t) * corners * corners * std::size_t(size.kind##_count);
+    ELEMENT_KINDS(ADD_PLACES)
+#undef ADD_PLACES
     // Coarse matrices are a third of the finest one; the plan of their products holds nine entries per fine block.
     return matrix + places + (levels ? matrix / 3 + 9 * 4 * blocks * 4 / 3 : 0);
 }
 
-PhasePlan plan_phase(const Scene& scene, const SceneModel& model, bool sewing)
+template <class Kernels>
+void add_launches(const Kernels& kernels, const mesh_sizes& size, PhasePlan& phase)
+{
+    for (const auto& kernel : kernels)
+        if (kernel.is_active(phase.params))
+            phase.launches.push_back({std::string(kernel.name), std::string(kind_name(kernel.per)),
+                                      kernel.item_count(size),
+                                      std::size_t(kernel.item_count(size)) * std::size_t(kernel.bytes_per_item)});
+}
+
+PhasePlan plan_phase(const Scene& scene, const SceneModel& model, RunStage stage)
 {
     PhasePlan phase;
-    phase.name = sewing ? "sew" : "drape";
-    phase.params = phase_params(scene, model, sewing);
-    phase.joined = !sewing;
+    phase.stage = stage;
+    phase.params = phase_params(scene, model, stage == RunStage::sew);
     phase.queries_bodies = meets_bodies(phase.params);
-    Topology topology = make_topology(model.model.cloth, phase.joined);
-    add_springs(topology, model.model.cloth, model.model.fabrics, springs_of(phase.params));
+    const ClothModel& cloth = model.cloth_model;
+    Topology topology = make_topology(cloth.cloth, stage != RunStage::sew);
+    add_springs(topology, cloth.cloth, cloth.fabrics, springs_of(phase.params));
     const bool plate = phase.params.plate.scale > 0;
-    const mesh_sizes size = topology_sizes(topology, int(model.model.fabrics.size()),
+    const mesh_sizes size = topology_sizes(topology, int(cloth.fabrics.size()),
                                            plate ? couplings_per_hinge * int(topology.hinges.size()) : 0);
-    for (const Term& term : all_terms())
-        if (term.is_active(phase.params))
-            phase.launches.push_back({std::string(term.name), std::string(kind_name(term.per)), term.item_count(size),
-                                      std::size_t(term.item_count(size)) * std::size_t(term.bytes_per_item)});
-    for (const Rule& rule : all_rules())
-        if (rule.is_active(phase.params))
-            phase.launches.push_back({std::string(rule.name), std::string(kind_name(rule.per)), rule.item_count(size),
-                                      std::size_t(rule.item_count(size)) * std::size_t(rule.bytes_per_item)});
+    add_launches(all_terms(), size, phase);
+    add_launches(all_velocity_filters(), size, phase);
     if (phase.queries_bodies) phase.launches.push_back({"body_query", "vertex", size.vertex_count, 0});
     phase.field_bytes = field_bytes(size, required_fields(phase.params));
-    phase.solver_bytes = solver_estimate(scene, size, !model.model.coarser.empty());
+    phase.solver_bytes = solver_estimate(scene, cloth.cloth, size, !cloth.coarser.empty());
     return phase;
 }
 
-double bodies_end(const std::vector<Body>& bodies)
+// Notes that a feature is in use, or why not. A term may be needed in one phase only.
+void list_feature(std::string_view name, const FeatureCase& with, RunPlan& plan, bool is_listed = true)
 {
-    double end = 0;
-    for (const Body& body : bodies)
-        if (body.motion) end = std::max(end, body.motion->end());
-    return end;
+    const bool launched = std::any_of(plan.phases.begin(), plan.phases.end(), [&](const PhasePlan& phase) {
+        return std::any_of(phase.launches.begin(), phase.launches.end(),
+                           [&](const PlannedLaunch& launch) { return launch.name == name; });
+    });
+    const std::string reason = launched ? "" : why_off(with, name, plan.phases.back().params);
+    if (!reason.empty())
+        plan.skipped.push_back({std::string(name), reason});
+    else if (is_listed)
+        plan.active.emplace_back(name);
+}
+
+bool is_active(const RunPlan& plan, std::string_view feature)
+{
+    return std::find(plan.active.begin(), plan.active.end(), feature) != plan.active.end();
 }
 
 }  // namespace
@@ -69,59 +87,23 @@ double bodies_end(const std::vector<Body>& bodies)
 RunPlan make_plan(const Scene& scene, const SceneModel& model)
 {
     RunPlan plan;
-    if (model.sews) plan.phases.push_back(plan_phase(scene, model, true));
-    plan.phases.push_back(plan_phase(scene, model, false));
-    for (const Term& term : all_terms()) {
-        const bool used = std::any_of(plan.phases.begin(), plan.phases.end(),
-                                      [&](const PhasePlan& phase) { return term.is_active(phase.params); });
-        if (used)
-            plan.active.push_back(std::string(term.name));
-        else
-            plan.skipped.push_back({std::string(term.name), absence(scene, model, term.name)});
-    }
-    for (const Rule& rule : all_rules())
-        if (rule.is_active(plan.phases.back().params))
-            plan.active.push_back(std::string(rule.name));
-        else
-            plan.skipped.push_back(
-                {std::string(rule.name), absence_of_contact(scene, !model.model.bodies.empty(), rule.name)});
-    const bool queries = plan.phases.back().queries_bodies;
-    const bool queries_meshes = queries && std::any_of(model.model.bodies.begin(), model.model.bodies.end(),
-                                                       [](const Body& body) { return body.kind == Body::Kind::mesh; });
-    plan.embree = queries_meshes || scene.output.picture;
-    if (plan.embree)
-        plan.active.push_back("embree");
-    else
-        plan.skipped.push_back({"embree", queries ? "all bodies have closed forms, and no picture is drawn"
-                                                  : "no body is queried and no picture is drawn"});
-    if (scene.output.picture)
-        plan.active.push_back("picture");
-    else
-        plan.skipped.push_back({"picture", "output.picture is false"});
-    const std::string no_coarse_start = why_no_coarse_start(scene, model);
-    plan.coarse_start = no_coarse_start.empty();
-    if (plan.coarse_start)
-        plan.active.push_back("coarse_start");
-    else
-        plan.skipped.push_back({"coarse_start", no_coarse_start});
-    if (!model.sews) plan.skipped.push_back({"sew", "there are no seams"});
-    if (scene.wind.velocity.isZero()) plan.skipped.push_back({"wind", "wind.velocity is zero"});
-    const double body_end = bodies_end(model.model.bodies);
-    if (!queries || body_end == 0)
-        plan.skipped.push_back({"body_motion", queries ? "no body has keyframes or a sequence" : "no body is queried"});
-    else
-        plan.active.push_back("body_motion");
-    if (model.model.cloth.pin_motions.empty())
-        plan.skipped.push_back({"pin_motion", "there is no [[pins.motion]]"});
-    else
-        plan.active.push_back("pin_motion");
+    plan.integrators = drape_integrators(scene);
+    if (model.sews) plan.phases.push_back(plan_phase(scene, model, RunStage::sew));
+    plan.phases.push_back(plan_phase(scene, model, RunStage::drape));
+    const FeatureCase drape{scene, model, false};
+    for (const Term& term : all_terms()) list_feature(term.name, drape, plan);
+    for (const VelocityFilter& filter : all_velocity_filters()) list_feature(filter.name, drape, plan);
+    for (const Feature& feature : all_features())
+        if (!is_kernel(feature.name)) list_feature(feature.name, drape, plan, feature.is_listed);
+    plan.embree = is_active(plan, "embree");
+    plan.coarse_start = is_active(plan, "coarse_start");
 
     std::size_t body_bytes = 0;
-    for (const Body& body : model.model.bodies)
+    for (const Body& body : model.cloth_model.bodies)
         body_bytes += body.mesh.faces.size() * 400 + (body.motion ? body.motion->bytes() : 0);
     for (const PhasePlan& phase : plan.phases)
         plan.peak_bytes = std::max(plan.peak_bytes, phase.field_bytes + phase.solver_bytes);
-    plan.peak_bytes += model.model.cloth.positions.size() * 500 + body_bytes + (std::size_t(100) << 20);
+    plan.peak_bytes += model.cloth_model.cloth.positions.size() * 500 + body_bytes + (std::size_t(100) << 20);
     return plan;
 }
 

@@ -2,8 +2,10 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/run_stage.hpp"
 #include "host/scene/scene_model.hpp"
 #include "host/solver/terms/params.hpp"
+#include "io/scene/scene.hpp"
 
 namespace selvage {
 
@@ -20,9 +22,8 @@ struct SkippedFeature {
 
 /// What one phase of a run will do; plain data, made without running anything.
 struct PhasePlan {
-    std::string name;  ///< "sew" or "drape".
+    RunStage stage = RunStage::drape;  ///< sew or drape.
     Params params;
-    bool joined = true;
     bool queries_bodies = false;
     std::vector<PlannedLaunch> launches;
     std::size_t field_bytes = 0;   ///< State arrays.
@@ -31,7 +32,8 @@ struct PhasePlan {
 
 struct RunPlan {
     std::vector<PhasePlan> phases;
-    std::vector<std::string> active;  ///< Terms and devices in use in any phase.
+    std::vector<std::string> integrators;  ///< See drape_integrators.
+    std::vector<std::string> active;       ///< Terms and devices in use in any phase.
     std::vector<SkippedFeature> skipped;
     bool embree = false;         ///< A ray tracing device is made, for bodies of meshes or the picture.
     bool coarse_start = false;   ///< Coarser cloths are draped first.

@@ -1,6 +1,7 @@
 #include "host/scene/plan_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "host/scene/plan.hpp"
@@ -14,12 +15,12 @@ std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan
 {
     nlohmann::ordered_json json;
     json["scene"] = scene.name;
-    json["vertices"] = model.model.cloth.positions.size();
-    json["triangles"] = model.model.cloth.faces.size();
-    json["coarser_levels"] = model.model.coarser.size();
+    json["vertices"] = model.cloth_model.cloth.positions.size();
+    json["triangles"] = model.cloth_model.cloth.faces.size();
+    json["coarser_levels"] = model.cloth_model.coarser.size();
     json["phases"] = nlohmann::json::array();
     for (const PhasePlan& phase : plan.phases) {
-        nlohmann::ordered_json entry{{"name", phase.name},
+        nlohmann::ordered_json entry{{"name", word_of(phase.stage)},
                                      {"field_bytes", phase.field_bytes},
                                      {"solver_bytes", phase.solver_bytes},
                                      {"launches", nlohmann::json::array()}};
@@ -28,6 +29,7 @@ std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan
                 {{"name", launch.name}, {"per", launch.items}, {"items", launch.count}, {"bytes", launch.bytes}});
         json["phases"].push_back(entry);
     }
+    json["integrators"] = plan.integrators;
     json["active"] = plan.active;
     json["skipped"] = nlohmann::json::array();
     for (const SkippedFeature& skipped : plan.skipped)
@@ -42,15 +44,17 @@ std::string plan_text(const Scene& scene, const SceneModel& model, const RunPlan
 {
     std::string text =
         fmt::format("{}: {} vertices, {} triangles in {} panels, {} seams, {} bodies, {} coarser levels\n", scene.name,
-                    model.model.cloth.positions.size(), model.model.cloth.faces.size(), model.model.cloth.panels.size(),
-                    model.model.cloth.seams.size(), model.model.bodies.size(), model.model.coarser.size());
+                    model.cloth_model.cloth.positions.size(), model.cloth_model.cloth.faces.size(),
+                    model.cloth_model.cloth.panels.size(), model.cloth_model.cloth.seams.size(),
+                    model.cloth_model.bodies.size(), model.cloth_model.coarser.size());
     for (const PhasePlan& phase : plan.phases) {
-        text += fmt::format("\nphase {}: state {:.1f} MiB, linear solver about {:.1f} MiB\n", phase.name,
+        text += fmt::format("\nphase {}: state {:.1f} MiB, linear solver about {:.1f} MiB\n", word_of(phase.stage),
                             mebibytes(phase.field_bytes), mebibytes(phase.solver_bytes));
         for (const PlannedLaunch& launch : phase.launches)
             text += fmt::format("  {:<14} {:>9} per {:<7} {:>9.2f} MiB\n", launch.name, launch.count, launch.items,
                                 mebibytes(launch.bytes));
     }
+    text += fmt::format("\nintegrators of the drape: {}\n", fmt::join(plan.integrators, ", then "));
     text += "\nskipped\n";
     for (const SkippedFeature& skipped : plan.skipped)
         text += fmt::format("  {:<14} {}\n", skipped.name, skipped.reason);

@@ -11,7 +11,8 @@
 #include "host/garment/catalogue.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/model/cloth_model.hpp"
-#include "host/model/transfer.hpp"
+#include "host/model/prolongation.hpp"
+#include "host/parallel/trace.hpp"
 #include "host/scene/body_model.hpp"
 #include "io/memory.hpp"
 #include "io/mesh/mesh_obj.hpp"
@@ -48,8 +49,10 @@ Pattern read_pattern(const Scene& scene)
 {
     constexpr std::string_view prefix = "builtin:";
     const std::string& name = scene.garment.pattern;
-    Pattern pattern = name.starts_with(prefix) ? builtin_pattern(name.substr(prefix.size()), scene.garment.size)
-                                               : read_pattern_json(scene.resolve(name), scene.garment);
+    Pattern pattern =
+        name.starts_with(prefix)
+            ? builtin_pattern(name.substr(prefix.size()), scene.garment.size)
+            : read_pattern_json(scene.resolve(name), {scene.garment.up_axis, scene.garment.rotation_order});
     for (PatternPanel& panel : pattern.panels) panel.translation += scene.garment.translation;
     return pattern;
 }
@@ -62,23 +65,24 @@ Cloth sheet_at(const Scene& scene, int index, int resolution)
     PinsScene pins = scene.pins;
     if (resolution != scene.sheets[index].resolution) pins.vertices.clear();  // indices are those of the finest mesh
     Cloth cloth;
-    if (sheet.shape == "mesh") {
+    if (sheet.shape == SheetShape::mesh) {
         std::vector<Vec2> texture;
         const TriangleMesh mesh = read_obj(scene.resolve(sheet.mesh), sheet.unit, sheet.up_axis, &texture);
         cloth = sheet_from_mesh(mesh, texture, sheet, pins, sheet.mesh, key);
     } else {
         cloth = make_sheet(sheet, pins, scene.file, key);
     }
-    add_pin_motions(cloth, scene.pin_motions, scene.file);
+    add_pin_motions(cloth, scene.pin_motions);
     return cloth;
 }
 
 void check_sheet_size(const Scene& scene, int index)
 {
     const SheetScene& sheet = scene.sheets[index];
-    const double rows = sheet.shape == "rectangle" ? sheet.resolution * sheet.height / sheet.width : sheet.resolution;
+    const double rows =
+        sheet.shape == SheetShape::rectangle ? sheet.resolution * sheet.height / sheet.width : sheet.resolution;
     const double vertices = sheet.resolution * std::max(rows, 2.0), most = memory_limit(scene) / bytes_per_vertex;
-    if (sheet.shape == "mesh" || vertices <= most) return;
+    if (sheet.shape == SheetShape::mesh || vertices <= most) return;
     throw InputError(scene.place("sheet[" + std::to_string(index) + "].resolution"),
                      fmt::format("{}, which means about {:.3g} vertices", sheet.resolution, vertices),
                      fmt::format("at most {:.3g} vertices (solver.memory_limit)", most));
@@ -136,7 +140,7 @@ Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
     }
     for (int i = 0; i < int(scene.sheets.size()); ++i) {
         const SheetScene& sheet = scene.sheets[i];
-        if (level > 0 && sheet.shape == "mesh") return {};
+        if (level > 0 && sheet.shape == SheetShape::mesh) return {};
         const int resolution = int(std::ceil((sheet.resolution - 1) / factor)) + 1;
         append_cloth(cloth, sheet_at(scene, i, std::max(resolution, 3)));
     }
@@ -145,7 +149,7 @@ Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
 
 void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& model)
 {
-    if (scene.solver.preconditioner == "block_jacobi") return;
+    if (scene.solver.preconditioner == PreconditionerChoice::block_jacobi) return;
     const TraceScope scope("coarser_levels");
     for (int level = 1; level < 10; ++level) {
         const Cloth& finer = level == 1 ? model.cloth : model.coarser.back();
@@ -153,7 +157,7 @@ void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& 
         Cloth coarse = cloth_at_level(scene, pattern, level);
         // Where short outline edges keep the mesh fine, a coarser level is no longer worth its cost.
         if (coarse.positions.empty() || coarse.positions.size() * 10 > finer.positions.size() * 7) return;
-        model.transfers.push_back(make_transfer(coarse, finer));
+        model.prolongations.push_back(make_prolongation(coarse, finer));
         model.coarser.push_back(std::move(coarse));
     }
 }
@@ -167,43 +171,43 @@ SceneModel build_scene_model(const Scene& scene)
     Pattern pattern;
     if (scene.has_garment()) pattern = read_pattern(scene);
     for (int i = 0; i < int(scene.sheets.size()); ++i) check_sheet_size(scene, i);
-    result.model.cloth = cloth_at_level(scene, pattern, 0);
+    result.cloth_model.cloth = cloth_at_level(scene, pattern, 0);
     // A fabric that no panel is made of must not decide which terms run.
-    for (const ClothPanel& panel : result.model.cloth.panels)
-        result.model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
-    result.model.bodies = build_bodies(scene);
-    add_coarser_levels(scene, pattern, result.model);
+    for (const ClothPanel& panel : result.cloth_model.cloth.panels)
+        result.cloth_model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
+    result.cloth_model.bodies = build_bodies(scene);
+    add_coarser_levels(scene, pattern, result.cloth_model);
     result.warnings = pattern.warnings;
-    const auto& odd = result.model.cloth.warnings;
+    const auto& odd = result.cloth_model.cloth.warnings;
     result.warnings.insert(result.warnings.end(), odd.begin(), odd.end());
-    result.sews = !result.model.cloth.seam_pairs.empty();
-    result.edge_length = typical_edge(result.model.cloth);
-    result.least_height = least_height(result.model.cloth);
+    result.sews = !result.cloth_model.cloth.seam_pairs.empty();
+    result.edge_length = typical_edge(result.cloth_model.cloth);
+    result.least_height = least_height(result.cloth_model.cloth);
     if (scene.contact.self && result.least_height < sliver * result.edge_length)
         result.warnings.push_back(
             fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
                         "presses on cloth from less than that height only",
                         result.least_height, result.edge_length));
     if (!scene.has_garment()) {
-        add_ripple(result.model.cloth);
-        for (Cloth& coarser : result.model.coarser) add_ripple(coarser);
+        add_ripple(result.cloth_model.cloth);
+        for (Cloth& coarser : result.cloth_model.coarser) add_ripple(coarser);
     }
     return result;
 }
 
 SceneModel coarser_model(const SceneModel& model, std::size_t level)
 {
-    const ClothModel& whole = model.model;
+    const ClothModel& whole = model.cloth_model;
     const auto from = std::ptrdiff_t(level) + 1;
     SceneModel result;
-    result.model = {whole.coarser[level],
-                    {whole.coarser.begin() + from, whole.coarser.end()},
-                    {whole.transfers.begin() + from, whole.transfers.end()},
-                    whole.fabrics,
-                    whole.bodies};
+    result.cloth_model = {whole.coarser[level],
+                          {whole.coarser.begin() + from, whole.coarser.end()},
+                          {whole.prolongations.begin() + from, whole.prolongations.end()},
+                          whole.fabrics,
+                          whole.bodies};
     result.sews = model.sews;
-    result.edge_length = typical_edge(result.model.cloth);
-    result.least_height = least_height(result.model.cloth);
+    result.edge_length = typical_edge(result.cloth_model.cloth);
+    result.least_height = least_height(result.cloth_model.cloth);
     return result;
 }
 

@@ -3,14 +3,15 @@
 #include <vector>
 
 #include "host/model/cloth_model.hpp"
-#include "host/solver/stepping/phase.hpp"
-#include "io/scene/scene.hpp"
+#include "io/geometry.hpp"
 
 namespace selvage {
 
+struct Scene;
+
 /// The cloth and the bodies of a scene, assembled; what was odd but usable is in `warnings`.
 struct SceneModel {
-    ClothModel model;
+    ClothModel cloth_model;
     std::vector<std::string> warnings;
     bool sews = false;           ///< There are seams to close before draping.
     double edge_length = 0.01;   ///< Typical rest edge of the finest cloth [m].
@@ -21,7 +22,7 @@ struct SceneModel {
 /// @throws InputError for any fault of a pattern, mesh, measure or resolution
 SceneModel build_scene_model(const Scene& scene);
 
-/// Returns the same scene with its cloth as level `level` of model.coarser has it, and what is coarser than that.
+/// Returns the same scene with its cloth as level `level` of cloth_model.coarser has it, and what is coarser than that.
 SceneModel coarser_model(const SceneModel& model, std::size_t level);
 
 /// Returns the memory that a run of the scene may take: solver.memory_limit, or most of the machine's [bytes].

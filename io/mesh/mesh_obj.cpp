@@ -221,13 +221,19 @@ void ObjReader::fill_texture(std::vector<Vec2>& texture) const
         }
 }
 
-double metres_per(const std::string& unit, const std::string& path)
+double metres_per(LengthUnit unit)
 {
-    if (unit == "m") return 1;
-    if (unit == "cm") return 0.01;
-    if (unit == "mm") return 0.001;
-    if (unit == "inch") return 0.0254;
-    throw InputError({path, 0, 0, "unit"}, "`" + unit + "`", "m, cm, mm or inch");
+    switch (unit) {
+        case LengthUnit::cm:
+            return 0.01;
+        case LengthUnit::mm:
+            return 0.001;
+        case LengthUnit::inch:
+            return 0.0254;
+        case LengthUnit::m:
+            break;
+    }
+    return 1;
 }
 
 void append_numbers(std::string& text, const char* keyword, const double* values, int count)
@@ -267,10 +273,9 @@ std::vector<std::string> sequence_files(const std::string& pattern, const InputP
     return files;
 }
 
-TriangleMesh read_obj(const std::string& path, const std::string& unit, const std::string& up_axis,
-                      std::vector<Vec2>* texture)
+TriangleMesh read_obj(const std::string& path, LengthUnit unit, Axis up_axis, std::vector<Vec2>* texture)
 {
-    const double scale = metres_per(unit, path);
+    const double scale = metres_per(unit);
     const Mat3 turn = scale * z_up_from(up_axis);
     ObjReader reader(path);
     reader.read(read_file_text(path, "an OBJ file"));

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "io/choices.hpp"
 #include "io/errors.hpp"
 #include "io/geometry.hpp"
 
@@ -10,14 +11,13 @@ namespace selvage {
 
 /// Reads a Wavefront OBJ file. Polygons become fans of triangles, `o` and `g` become parts; materials and normals are
 /// ignored.
-/// @param unit     length unit of the file: m, cm, mm or inch
-/// @param up_axis  up direction of the file: x, y or z
+/// @param unit     length unit of the file
+/// @param up_axis  up direction of the file
 /// @param texture  if given: the texture coordinates per vertex as written, empty when the file has none
 /// @return the mesh in metres, z up
 /// @throws InputError with the line: bad numbers, indices out of range, faces below 3 vertices; a file without faces;
 ///         with `texture`, a vertex without texture coordinates or with several.
-TriangleMesh read_obj(const std::string& path, const std::string& unit, const std::string& up_axis,
-                      std::vector<Vec2>* texture = nullptr);
+TriangleMesh read_obj(const std::string& path, LengthUnit unit, Axis up_axis, std::vector<Vec2>* texture = nullptr);
 
 /// Returns the files that match a path with one * in its last part, sorted by name.
 /// @param place  for error messages

@@ -35,7 +35,10 @@ std::string unit_hint(double extent_in_units)
 // Reads one file; its members are what the reading of every panel needs.
 class PatternReader {
 public:
-    PatternReader(const JsonCursor& root, const GarmentScene& garment) : root_(root), garment_(garment) {}
+    PatternReader(const JsonCursor& root, const PatternConventions& conventions)
+        : root_(root), conventions_(conventions)
+    {
+    }
 
     Pattern read();
 
@@ -50,7 +53,7 @@ private:
     void claim_edge(StitchSide side, const JsonCursor& cursor, const std::string& stitch);
 
     JsonCursor root_;
-    const GarmentScene& garment_;
+    const PatternConventions& conventions_;
     PatternUnits units_;
     Pattern pattern_;
     std::map<std::pair<int, int>, std::string> stitched_;  ///< Maps (panel, edge) to the stitch that uses it.
@@ -146,7 +149,7 @@ void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel
     constexpr double degree = 3.14159265358979323846 / 180;
     Mat3 turn = Mat3::Identity();
     int axes_used = 0;
-    for (const char name : garment_.rotation_order) {
+    for (const char name : word_of(conventions_.rotation_order)) {
         const int axis = name - 'x';
         turn = Eigen::AngleAxisd(angles[axis] * degree, Vec3::Unit(axis)).toRotationMatrix() * turn;
         axes_used += std::abs(std::remainder(angles[axis], 360)) > 1e-9;
@@ -154,8 +157,8 @@ void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel
     if (axes_used > 1)
         pattern_.warnings.push_back(rotation.place().key + " turns about " + std::to_string(axes_used) +
                                     " axes, for which writers of this format use different orders: taken as `" +
-                                    garment_.rotation_order + "`, see garment.rotation_order");
-    const Mat3 up = z_up_from(garment_.up_axis == "auto" ? "y" : garment_.up_axis);
+                                    text_of(conventions_.rotation_order) + "`, see garment.rotation_order");
+    const Mat3 up = z_up_from(find_word<Axis>(word_of(conventions_.up)).value_or(Axis::y));
     panel.rotation = up * turn;
     panel.translation = up * moved;
 }
@@ -207,11 +210,11 @@ void PatternReader::read_stitch(const JsonCursor& cursor)
 
 }  // namespace
 
-Pattern read_pattern_json(const std::string& path, const GarmentScene& garment)
+Pattern read_pattern_json(const std::string& path, const PatternConventions& conventions)
 {
     const std::string text = read_file_text(path, "a pattern file (GarmentCode JSON)");
     const OrderedJson json = parse_json(text, path);
-    Pattern pattern = PatternReader(JsonCursor(json, path, ""), garment).read();
+    Pattern pattern = PatternReader(JsonCursor(json, path, ""), conventions).read();
     pattern.name = std::filesystem::path(path).stem().string();
     return pattern;
 }

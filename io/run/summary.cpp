@@ -125,6 +125,7 @@ std::string summary_json(const RunSummary& summary)
     json["coarse_start"] = coarse_json(summary);
     json["phases"] = phases_json(summary);
     json["kernels"] = kernels_json(summary);
+    json["integrators"] = summary.integrators;
     json["active"] = summary.active;
     json["skipped"] = skipped_json(summary);
     json["warnings"] = summary.warnings;

@@ -63,7 +63,8 @@ struct RunSummary {
     double simulated_s = unknown, wall_s = unknown;
     std::vector<std::pair<std::string, double>> phases;  ///< Name and wall time [s] of each phase, in order.
     std::vector<KernelUse> kernels;
-    std::vector<std::string> active;  ///< Terms and stages that ran.
+    std::vector<std::string> integrators;  ///< That moved the cloth while it draped, in their order.
+    std::vector<std::string> active;       ///< Terms and stages that ran.
     std::vector<SkippedPart> skipped;
     std::vector<std::string> warnings;
     std::int64_t peak_memory_bytes = -1;

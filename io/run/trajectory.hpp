@@ -7,21 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "io/choices.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
 
 class Hdf5File;
 
-/// The grid to which written positions are rounded. Its spacing is a power of two, so rounded positions are exact in
-/// float32 and compress well.
-enum class PositionGrid { lossless, fine_8um, coarse_60um };
-
-/// Returns the grid named by `output.precision`: lossless, 8um or 60um.
-/// @throws InputError for any other word.
-PositionGrid position_grid(const std::string& word);
-
-/// Returns the distance of neighbouring grid values [m]: 0, 2^-17 or 2^-14.
+/// Returns the distance of neighbouring grid values [m]: 0, 2^-17 or 2^-14. A power of two keeps rounded positions
+/// exact in float32, and they compress well.
 double grid_spacing(PositionGrid grid);
 
 /// Returns a position as it is written: rounded to the grid, then to single precision [m].

@@ -59,14 +59,6 @@ void copy_frames(const TrajectoryReader& old, const std::string& path, int frame
 
 }  // namespace
 
-PositionGrid position_grid(const std::string& word)
-{
-    if (word == "lossless") return PositionGrid::lossless;
-    if (word == "8um") return PositionGrid::fine_8um;
-    if (word == "60um") return PositionGrid::coarse_60um;
-    throw InputError({{}, 0, 0, "output.precision"}, '"' + word + '"', "lossless, 8um or 60um");
-}
-
 double grid_spacing(PositionGrid grid)
 {
     if (grid == PositionGrid::lossless) return 0;

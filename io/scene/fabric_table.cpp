@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/choices.hpp"
 #include "io/number_text.hpp"
 #include "io/scene/presets.hpp"
 #include "io/scene/scene_keys.hpp"
@@ -17,17 +18,20 @@ constexpr const char* folder = "fabrics";
 
 // A fabric's table as written: NaN where it is silent.
 #define FABRIC_KEY(type, name, initial, unit, low, high, meaning) type name = initial;
-#define FABRIC_WORD(name, initial, choices, meaning) std::string name = initial;
+#define FABRIC_WORD(name, initial, meaning) std::string name = initial;
+#define FABRIC_CHOICE(name, type, initial, meaning) type name = type::initial;
 #define FABRIC_CURVE(name, number, measure, meaning) std::vector<Vec2> name;
 struct FabricTable {
-    FABRIC_KEYS(FABRIC_KEY, FABRIC_WORD, FABRIC_CURVE)
+    FABRIC_KEYS(FABRIC_KEY, FABRIC_WORD, FABRIC_CHOICE, FABRIC_CURVE)
 };
 #undef FABRIC_KEY
 #undef FABRIC_WORD
+#undef FABRIC_CHOICE
 #undef FABRIC_CURVE
 
 #define NOT_A_NUMBER_KEY(type, name, initial, unit, low, high, meaning)
-#define NOT_A_WORD(name, initial, choices, meaning)
+#define NOT_A_WORD(name, initial, meaning)
+#define NOT_A_CHOICE(name, type, initial, meaning)
 #define NOT_A_CURVE(name, number, measure, meaning)
 
 constexpr double largest_elongation = 10, largest_angle = 1.5;  // [1], [rad]
@@ -60,7 +64,7 @@ std::vector<Vec2> membrane_points(const GivenCurve& given, const InputPlace& pla
 }
 
 // The table's own word on one direction: a curve, or a number that replaces an inherited curve, or nothing.
-void merge_curve(const GivenCurve& given, const std::string& shape, const TableReader& reader)
+void merge_curve(const GivenCurve& given, CurveShape shape, const TableReader& reader)
 {
     if (given.points.empty()) {
         if (!std::isnan(given.given_number)) given.curve.clear();
@@ -71,7 +75,7 @@ void merge_curve(const GivenCurve& given, const std::string& shape, const TableR
                          "`" + std::string(given.number_name) + "` beside `" + given.name + "`",
                          "one of the two: a curve has its own slope at zero strain");
     const std::vector<Vec2> points = membrane_points(given, reader.place(given.name));
-    given.curve = shape == "smooth" ? smooth_curve(points) : piecewise_curve(points);
+    given.curve = shape == CurveShape::smooth ? smooth_curve(points) : piecewise_curve(points);
     given.number = given.curve[0].slope;
 }
 
@@ -82,9 +86,9 @@ void merge_curves(const FabricTable& table, const TableReader& reader, Fabric& f
     merge_curve({#name, #number, table.name, table.number, CurveMeasure::measure, fabric.name, fabric.number}, \
                 table.curve, reader);                                                                          \
     any = any || !table.name.empty();
-    FABRIC_KEYS(NOT_A_NUMBER_KEY, NOT_A_WORD, MERGE_CURVE)
+    FABRIC_KEYS(NOT_A_NUMBER_KEY, NOT_A_WORD, NOT_A_CHOICE, MERGE_CURVE)
 #undef MERGE_CURVE
-    if (!any && !table.curve.empty())
+    if (!any && table.curve != CurveShape::not_given)
         throw InputError(reader.place("curve"), "a table without points",
                          "stretch_weft_curve, stretch_warp_curve or shear_curve");
 }
@@ -152,11 +156,13 @@ Fabric read_fabric_table(TableReader& reader, const std::string& name)
 {
     FabricTable table;
 #define READ_KEY(type, name, initial, unit, low, high, meaning) reader.read(#name, table.name, unit, low, high);
-#define READ_WORD(name, initial, choices, meaning) reader.read(#name, table.name, choices);
+#define READ_WORD(name, initial, meaning) reader.read(#name, table.name);
+#define READ_CHOICE(name, type, initial, meaning) reader.read(#name, table.name);
 #define READ_CURVE(name, number, measure, meaning) read_curve(reader, #name, CurveMeasure::measure, table.name);
-    FABRIC_KEYS(READ_KEY, READ_WORD, READ_CURVE)
+    FABRIC_KEYS(READ_KEY, READ_WORD, READ_CHOICE, READ_CURVE)
 #undef READ_KEY
 #undef READ_WORD
+#undef READ_CHOICE
 #undef READ_CURVE
     reader.refuse_unknown();
 
@@ -171,13 +177,13 @@ Fabric read_fabric_table(TableReader& reader, const std::string& name)
         require_number(table.areal_density, reader, "areal_density");
 #define REQUIRE(name, number, measure, meaning) \
     if (table.name.empty()) require_number(table.number, reader, #number);
-        FABRIC_KEYS(NOT_A_NUMBER_KEY, NOT_A_WORD, REQUIRE)
+        FABRIC_KEYS(NOT_A_NUMBER_KEY, NOT_A_WORD, NOT_A_CHOICE, REQUIRE)
 #undef REQUIRE
         require_number(table.bending_weft, reader, "bending_weft");
         require_number(table.bending_warp, reader, "bending_warp");
     }
 #define MERGE_KEY(type, name, initial, unit, low, high, meaning) merge_number(table.name, fabric.name);
-    FABRIC_KEYS(MERGE_KEY, NOT_A_WORD, NOT_A_CURVE)
+    FABRIC_KEYS(MERGE_KEY, NOT_A_WORD, NOT_A_CHOICE, NOT_A_CURVE)
 #undef MERGE_KEY
     merge_curves(table, reader, fabric);
     if (!table.source.empty()) fabric.source = table.source;
@@ -193,7 +199,7 @@ void check_fabric(const Fabric& fabric, const InputPlace& place)
 {
 #define CHECK_KEY(type, name, initial, unit, low, high, meaning) \
     check_number(fabric.name, place, #name, unit, low, high);
-    FABRIC_KEYS(CHECK_KEY, NOT_A_WORD, NOT_A_CURVE)
+    FABRIC_KEYS(CHECK_KEY, NOT_A_WORD, NOT_A_CHOICE, NOT_A_CURVE)
 #undef CHECK_KEY
     const std::array<StressCurve, 3> curves = membrane_curves(fabric);
     require_definite(place, "stretch", std::max(0.0, smallest_slope(curves[0])),

@@ -30,10 +30,11 @@ TomlDocument read_document(const std::string& source)
 }
 
 #define READ_KEY(type, name, initial, unit, low, high, meaning) reader.read(#name, target.name, unit, low, high);
-#define READ_WORD(name, initial, choices, meaning) reader.read(#name, target.name, choices);
+#define READ_WORD(name, initial, meaning) reader.read(#name, target.name);
+#define READ_CHOICE(name, type, initial, meaning) reader.read(#name, target.name);
 #define READ_VEC3(name, x, y, z, unit, meaning) reader.read(#name, target.name, unit);
 #define SCENE_TABLE(name, type, keys, meaning) \
-    void read_keys(TableReader& reader, type& target) { keys(READ_KEY, READ_WORD, READ_VEC3) }
+    void read_keys(TableReader& reader, type& target) { keys(READ_KEY, READ_WORD, READ_CHOICE, READ_VEC3) }
 SCENE_TABLES(SCENE_TABLE)
 SCENE_TABLE(sheet, SheetScene, SHEET_KEYS, "")
 SCENE_TABLE(body, BodyScene, BODY_KEYS, "")
@@ -42,6 +43,7 @@ SCENE_TABLE(motion, PinMotionScene, PIN_MOTION_KEYS, "")
 #undef SCENE_TABLE
 #undef READ_KEY
 #undef READ_WORD
+#undef READ_CHOICE
 #undef READ_VEC3
 
 // [garment.fabrics]: its keys are the pattern's panels, which are not known here.
@@ -51,7 +53,7 @@ void read_inner_tables(TomlDocument& document, TableReader& reader, GarmentScene
     if (!fabrics) return;
     TableReader inner(document, fabrics, "garment.fabrics");
     for (const auto& [panel, node] : *fabrics)
-        inner.read(std::string(panel.str()).c_str(), scene.panel_fabrics[std::string(panel.str())], "");
+        inner.read(std::string(panel.str()).c_str(), scene.panel_fabrics[std::string(panel.str())]);
 }
 
 // Tables [[outer.name]] of a table that may itself be repeated.
@@ -115,7 +117,7 @@ void read_fabrics(TomlDocument& document, TableReader& top, Scene& scene)
 std::vector<std::string> read_top_keys(TableReader& top, std::string& summary)
 {
     std::vector<std::string> parameters;
-    top.read("summary", summary, "");
+    top.read("summary", summary);
     top.read("parameters", parameters);
     return parameters;
 }

@@ -1,46 +1,19 @@
 #pragma once
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "io/errors.hpp"
-#include "io/geometry.hpp"
 #include "io/scene/fabric.hpp"
-#include "io/scene/scene_keys.hpp"
+#include "io/scene/scene_tables.hpp"
 
 namespace selvage {
 
-/// Marks a number that the user did not give; test with std::isnan.
-inline constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
-
-// One struct per table of io/scene/scene_keys.hpp, with the defaults given there.
-#define SCENE_KEY(type, name, initial, unit, low, high, meaning) type name = initial;
-#define SCENE_WORD(name, initial, choices, meaning) std::string name = initial;
-#define SCENE_VEC3(name, x, y, z, unit, meaning) Vec3 name{x, y, z};
-#define SCENE_TABLE(name, type, keys, meaning)  \
-    struct type {                               \
-        keys(SCENE_KEY, SCENE_WORD, SCENE_VEC3) \
-    };
-SCENE_TABLES(SCENE_TABLE)
-#undef SCENE_TABLE
-struct SheetScene {
-    SHEET_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
+/// How long a run goes on.
+struct Until {
+    bool equilibrium = true;  ///< Until the cloth is at rest.
+    double time = 0;          ///< Otherwise: simulated time [s].
 };
-struct KeyframeScene {
-    KEYFRAME_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
-};
-struct BodyScene {
-    BODY_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
-    std::vector<KeyframeScene> keyframes;  ///< [[body.keyframe]]
-    bool moves() const { return !keyframes.empty() || !sequence.empty(); }
-};
-struct PinMotionScene {
-    PIN_MOTION_KEYS(SCENE_KEY, SCENE_WORD, SCENE_VEC3)
-};
-#undef SCENE_KEY
-#undef SCENE_WORD
-#undef SCENE_VEC3
 
 /// A whole scene: what is simulated, how, and what is written. All in SI units, z up.
 struct Scene {
@@ -62,6 +35,9 @@ struct Scene {
 
     bool has_garment() const { return !garment.pattern.empty(); }
     bool moves() const;  ///< A body or a pin has a motion of its own.
+    /// Returns solver.until.
+    /// @throws InputError if it is neither the word nor a time
+    Until until() const;
     /// Returns the place of a key path such as `body[0].mesh`; only the file when the key was not given.
     InputPlace place(const std::string& key) const;
     /// Returns a file name from the scene, resolved against the scene's folder.

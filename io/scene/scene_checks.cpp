@@ -43,7 +43,7 @@ void check_sheet(const Scene& scene, int index)
 {
     const SheetScene& sheet = scene.sheets[std::size_t(index)];
     const std::string path = "sheet[" + std::to_string(index) + "].";
-    if (sheet.shape == "mesh") check_file(scene, path + "mesh", sheet.mesh, "an OBJ file, as shape is mesh");
+    if (sheet.shape == SheetShape::mesh) check_file(scene, path + "mesh", sheet.mesh, "an OBJ file, as shape is mesh");
 }
 
 // What moves a body must fit its shape, and keyframes follow each other in time.
@@ -51,8 +51,8 @@ void check_motion(const Scene& scene, int index)
 {
     const BodyScene& body = scene.bodies[std::size_t(index)];
     const std::string path = "body[" + std::to_string(index) + "].";
-    if (!body.sequence.empty() && body.shape != "mesh")
-        throw InputError(scene.place(path + "sequence"), "`" + body.sequence + "` for a " + body.shape,
+    if (!body.sequence.empty() && body.shape != BodyShape::mesh)
+        throw InputError(scene.place(path + "sequence"), "`" + body.sequence + "` for a " + text_of(body.shape),
                          "no sequence, or shape = \"mesh\"");
     double last = 0;
     for (std::size_t k = 0; k < body.keyframes.size(); ++k) {
@@ -62,11 +62,11 @@ void check_motion(const Scene& scene, int index)
             throw InputError(scene.place(at + "time"), number_text(key.time) + " s",
                              "a time above " + number_text(last) + " s, that of the keyframe before");
         last = key.time;
-        if (!std::isnan(key.arm_angle) && body.shape != "mannequin")
-            throw InputError(scene.place(at + "arm_angle"), "an arm angle for a " + body.shape,
+        if (!std::isnan(key.arm_angle) && body.shape != BodyShape::mannequin)
+            throw InputError(scene.place(at + "arm_angle"), "an arm angle for a " + text_of(body.shape),
                              "none, or shape = \"mannequin\"");
         if (key.mesh.empty()) continue;
-        if (body.shape != "mesh" || !body.sequence.empty())
+        if (body.shape != BodyShape::mesh || !body.sequence.empty())
             throw InputError(scene.place(at + "mesh"), "`" + key.mesh + "`",
                              "none, or shape = \"mesh\" without a sequence");
         check_file(scene, at + "mesh", key.mesh, "an OBJ file of the pose");
@@ -92,9 +92,10 @@ void check_pin_motion(const Scene& scene, int index)
 void check_solver_of_motion(const Scene& scene)
 {
     if (!scene.moves()) return;
-    const std::string& integrator = scene.solver.integrator;
-    if (integrator != "automatic" && integrator != "implicit_euler" && integrator != "bdf2")
-        throw InputError(scene.place("solver.integrator"), "`" + integrator + "`",
+    const IntegratorChoice integrator = scene.solver.integrator;
+    if (integrator != IntegratorChoice::automatic && integrator != IntegratorChoice::implicit_euler &&
+        integrator != IntegratorChoice::bdf2)
+        throw InputError(scene.place("solver.integrator"), "`" + text_of(integrator) + "`",
                          "automatic, implicit_euler or bdf2, as a body or pin moves");
     if (scene.solver.load_steps > 1)
         throw InputError(scene.place("solver.load_steps"), std::to_string(scene.solver.load_steps),
@@ -105,10 +106,11 @@ void check_solver_of_motion(const Scene& scene)
 void check_response(const Scene& scene)
 {
     const ContactScene& contact = scene.contact;
-    const bool rule = contact.response == "velocity_rule";
+    const bool rule = contact.response == ContactResponse::velocity_rule;
     if (!rule && !std::isnan(contact.restitution))
-        throw InputError(scene.place("contact.restitution"), number_text(contact.restitution),
-                         "none, as contact.response is " + contact.response + " and only velocity_rule bounces");
+        throw InputError(
+            scene.place("contact.restitution"), number_text(contact.restitution),
+            "none, as contact.response is " + text_of(contact.response) + " and only velocity_rule bounces");
     if (!rule) return;
     if (!std::isnan(contact.stiffness))
         throw InputError(scene.place("contact.stiffness"), number_text(contact.stiffness) + " Pa",
@@ -117,7 +119,7 @@ void check_response(const Scene& scene)
         throw InputError(scene.place("contact.self"), "true",
                          "false or none, as contact.response is velocity_rule and knows of bodies only");
     if (scene.bodies.empty() || !contact.body) return;
-    if (scene.solver.until == "equilibrium")
+    if (scene.until().equilibrium)
         throw InputError(scene.place("solver.until"), "\"equilibrium\"",
                          "simulated seconds, as contact.response is velocity_rule and no force balances the weight");
     for (std::size_t body = 0; body < scene.bodies.size(); ++body)
@@ -130,17 +132,17 @@ void check_body(const Scene& scene, int index, std::set<std::string>& names)
 {
     const BodyScene& body = scene.bodies[std::size_t(index)];
     const std::string path = "body[" + std::to_string(index) + "].";
-    if (body.shape == "mesh" && (body.sequence.empty() || !body.mesh.empty()))
+    if (body.shape == BodyShape::mesh && (body.sequence.empty() || !body.mesh.empty()))
         check_file(scene, path + "mesh", body.mesh, "an OBJ file, as shape is mesh");
     check_motion(scene, index);
-    if (body.shape == "torus" && !(body.tube < body.radius))
+    if (body.shape == BodyShape::torus && !(body.tube < body.radius))
         throw InputError(scene.place(path + "tube"), number_text(body.tube) + " m",
                          "less than the radius of " + number_text(body.radius) + " m");
-    if (body.shape == "torus" && body.normal.norm() == 0)
+    if (body.shape == BodyShape::torus && body.normal.norm() == 0)
         throw InputError(scene.place(path + "normal"), "[0, 0, 0]", "a direction");
-    if (body.shape == "plane" && body.normal.norm() == 0)
+    if (body.shape == BodyShape::plane && body.normal.norm() == 0)
         throw InputError(scene.place(path + "normal"), "[0, 0, 0]", "a direction");
-    if (body.shape == "capsule" && body.center == body.end)
+    if (body.shape == BodyShape::capsule && body.center == body.end)
         throw InputError(scene.place(path + "end"), "the same point as `center`", "the capsule's other end [m]");
     if (!body.name.empty() && !names.insert(body.name).second)
         throw InputError(scene.place(path + "name"), "`" + body.name + "` a second time", "a name of its own per body");
@@ -148,17 +150,9 @@ void check_body(const Scene& scene, int index, std::set<std::string>& names)
 
 void check_until(const Scene& scene)
 {
-    const std::string& until = scene.solver.until;
-    constexpr double limit = 1e6;
-    double seconds = 0;
-    if (until != "equilibrium" && scene.solver.integrator == "static")
-        throw InputError(scene.place("solver.until"), "`" + until + "`",
+    if (!scene.until().equilibrium && scene.solver.integrator == IntegratorChoice::quasistatic)
+        throw InputError(scene.place("solver.until"), "`" + scene.solver.until + "`",
                          "\"equilibrium\", as solver.integrator is static and knows no time");
-    if (until == "equilibrium" || (parse_number(until, seconds) && seconds > 0 && seconds <= limit)) return;
-    const std::vector<std::string> words{"equilibrium"};
-    throw InputError(scene.place("solver.until"), "`" + until + "`",
-                     "\"equilibrium\" or a time above 0 and up to " + number_text(limit) + " s",
-                     nearest_name(until, words));
 }
 
 void check_pins(const Scene& scene)

@@ -3,47 +3,48 @@
 // and `selvage schema` all come from these lists.
 // clang-format off
 //     KEY(type, name, default, unit, low, high, meaning)    a number or a flag in [low, high]
-//     WORD(name, default, choices, meaning)                 one of the words in `choices`, separated by |; "": any text
+//     WORD(name, default, meaning)                          any text
+//     CHOICE(name, type, default, meaning)                  one of the words of an enumeration in io/choices.hpp
 //     VEC3(name, x, y, z, unit, meaning)                    three numbers
 //     CURVE(name, number, measure, meaning)                 measured points [[strain, stress], ...] for `number`
 // A default of `automatic` means: not given, chosen by the program.
 // clang-format on
 
-#define GARMENT_KEYS(KEY, WORD, VEC3)                                                                     \
-    WORD(pattern, "", "", "pattern file (GarmentCode JSON), or a built-in pattern as builtin:tshirt")     \
-    KEY(double, resolution, 0.01, "m", 1e-4, 0.2, "target edge length of the triangles")                  \
-    WORD(fabric, "cotton", "", "fabric of all panels: a preset's name or a [fabric.NAME] table")          \
-    WORD(size, "M", "S|M|L", "size of a built-in pattern")                                                \
-    WORD(up_axis, "auto", "auto|x|y|z", "up direction of the pattern file; auto: y for GarmentCode JSON") \
-    WORD(rotation_order, "xyz", "xyz|zyx|yxz|yzx|zxy|xzy",                                                \
-         "order in which a GarmentCode panel's rotations are applied; xyz means R = Rz Ry Rx")            \
-    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")                              \
-    KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                  \
+#define GARMENT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                 \
+    WORD(pattern, "", "pattern file (GarmentCode JSON), or a built-in pattern as builtin:tshirt")             \
+    KEY(double, resolution, 0.01, "m", 1e-4, 0.2, "target edge length of the triangles")                      \
+    WORD(fabric, "cotton", "fabric of all panels: a preset's name or a [fabric.NAME] table")                  \
+    CHOICE(size, BodySize, M, "size of a built-in pattern")                                                   \
+    CHOICE(up_axis, PatternAxis, automatic, "up direction of the pattern file; auto: y for GarmentCode JSON") \
+    CHOICE(rotation_order, RotationOrder, xyz,                                                                \
+           "order in which a GarmentCode panel's rotations are applied; xyz means R = Rz Ry Rx")              \
+    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")                                  \
+    KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                      \
     VEC3(copy_offset, 0, 0, 1, "m", "way from one copy to the next")
 
-#define SHEET_KEYS(KEY, WORD, VEC3)                                                                                    \
-    WORD(shape, "rectangle", "rectangle|disc|mesh", "outline of the sheet")                                            \
-    WORD(mesh, "", "", "OBJ file of the sheet (shape = mesh); texture coordinates give its rest shape, in metres")     \
-    KEY(double, width, 1, "m", 1e-3, 100, "extent along weft (rectangle)")                                             \
-    KEY(double, height, 1, "m", 1e-3, 100, "extent along warp (rectangle)")                                            \
-    KEY(double, radius, 0.15, "m", 1e-3, 100, "radius (disc)")                                                         \
-    KEY(int, resolution, 65, "1", 2, 4097, "vertices per side; across the diameter for a disc")                        \
-    WORD(mesh_family, "automatic",                                                                                     \
-         "automatic|alternating|same_diagonal|rows|cross|equilateral|irregular|panel|square",                          \
-         "triangles: alternating (automatic) to irregular for a rectangle; panel (automatic), equilateral, square or " \
-         "irregular for a disc")                                                                                       \
-    WORD(fabric, "cotton", "", "a preset's name or a [fabric.NAME] table")                                             \
-    WORD(unit, "m", "m|cm|mm|inch", "length unit of the mesh file")                                                    \
-    WORD(up_axis, "z", "x|y|z", "up direction of the mesh file")                                                       \
-    VEC3(center, 0, 0, 1, "m", "where the middle of the sheet starts")                                                 \
+#define SHEET_KEYS(KEY, WORD, CHOICE, VEC3)                                                                           \
+    CHOICE(shape, SheetShape, rectangle, "outline of the sheet")                                                      \
+    WORD(mesh, "", "OBJ file of the sheet (shape = mesh); texture coordinates give its rest shape, in metres")        \
+    KEY(double, width, 1, "m", 1e-3, 100, "extent along weft (rectangle)")                                            \
+    KEY(double, height, 1, "m", 1e-3, 100, "extent along warp (rectangle)")                                           \
+    KEY(double, radius, 0.15, "m", 1e-3, 100, "radius (disc)")                                                        \
+    KEY(int, resolution, 65, "1", 2, 4097, "vertices per side; across the diameter for a disc")                       \
+    CHOICE(                                                                                                           \
+        mesh_family, MeshFamily, automatic,                                                                           \
+        "triangles: alternating (automatic) to irregular for a rectangle; panel (automatic), equilateral, square or " \
+        "irregular for a disc")                                                                                       \
+    WORD(fabric, "cotton", "a preset's name or a [fabric.NAME] table")                                                \
+    CHOICE(unit, LengthUnit, m, "length unit of the mesh file")                                                       \
+    CHOICE(up_axis, Axis, z, "up direction of the mesh file")                                                         \
+    VEC3(center, 0, 0, 1, "m", "where the middle of the sheet starts")                                                \
     VEC3(rotation, 0, 0, 0, "degrees", "turns about x, then y, then z; without them the sheet lies flat")
 
-#define BODY_KEYS(KEY, WORD, VEC3)                                                                                    \
-    WORD(name, "", "", "name in messages and in body.obj")                                                            \
-    WORD(shape, "mesh", "mesh|mannequin|sphere|plane|capsule|cylinder|cone|torus", "kind of body")                    \
-    WORD(mesh, "", "", "OBJ file (shape = mesh)")                                                                     \
-    WORD(unit, "m", "m|cm|mm|inch", "length unit of the mesh file")                                                   \
-    WORD(up_axis, "z", "x|y|z", "up direction of the mesh file")                                                      \
+#define BODY_KEYS(KEY, WORD, CHOICE, VEC3)                                                                            \
+    WORD(name, "", "name in messages and in body.obj")                                                                \
+    CHOICE(shape, BodyShape, mesh, "kind of body")                                                                    \
+    WORD(mesh, "", "OBJ file (shape = mesh)")                                                                         \
+    CHOICE(unit, LengthUnit, m, "length unit of the mesh file")                                                       \
+    CHOICE(up_axis, Axis, z, "up direction of the mesh file")                                                         \
     VEC3(center, 0, 0, 0, "m",                                                                                        \
          "centre (sphere, cylinder, torus), a point (plane), first end (capsule), middle of the base (cone), shift "  \
          "(mesh, mannequin)")                                                                                         \
@@ -56,7 +57,7 @@
     KEY(double, height, 0.1, "m", 1e-4, 100, "height of an upright cylinder or cone")                                 \
     KEY(double, tube, 0.02, "m", 1e-4, 100, "radius of the tube (torus)")                                             \
     KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient; automatic: the fabric's")                      \
-    WORD(size, "M", "S|M|L", "mannequin size; single measurements below override it")                                 \
+    CHOICE(size, BodySize, M, "mannequin size; single measurements below override it")                                \
     KEY(double, stature, automatic, "m", 0.8, 2.5, "mannequin: body height")                                          \
     KEY(double, bust, automatic, "m", 0.4, 2, "mannequin: bust girth")                                                \
     KEY(double, waist, automatic, "m", 0.3, 2, "mannequin: waist girth")                                              \
@@ -65,9 +66,9 @@
     KEY(double, neck, automatic, "m", 0.2, 0.8, "mannequin: neck girth")                                              \
     KEY(double, arm_length, automatic, "m", 0.3, 1.2, "mannequin: shoulder to wrist")                                 \
     KEY(double, arm_angle, automatic, "degrees", 0, 90, "mannequin: arm below the horizontal; 90 hangs down")         \
-    WORD(interpolation, "linear", "linear|smooth",                                                                    \
-         "between two keyframes: at a steady speed, or smoothly from rest to rest as 3 s^2 - 2 s^3")                  \
-    WORD(sequence, "", "",                                                                                            \
+    CHOICE(interpolation, Interpolation, linear,                                                                      \
+           "between two keyframes: at a steady speed, or smoothly from rest to rest as 3 s^2 - 2 s^3")                \
+    WORD(sequence, "",                                                                                                \
          "OBJ files of the body's poses, as pose_*.obj, taken by name (shape = mesh); same faces in each, positions " \
          "change linearly from one to the next")                                                                      \
     KEY(double, sequence_rate, 25, "1/s", 0.01, 10000,                                                                \
@@ -75,17 +76,17 @@
     KEY(double, sequence_start, 0, "s", 0, 1e6, "time at which the sequence begins")
 
 // [[body.keyframe]]: where a body is at a time, relative to how it starts; it stays as at the last one.
-#define KEYFRAME_KEYS(KEY, WORD, VEC3)                                                                                \
+#define KEYFRAME_KEYS(KEY, WORD, CHOICE, VEC3)                                                                        \
     KEY(double, time, 0, "s", 0, 1e6, "when the body is there; above that of the keyframe before, which starts at 0") \
     VEC3(translation, 0, 0, 0, "m", "way from where it starts")                                                       \
     VEC3(rotation, 0, 0, 0, "degrees",                                                                                \
          "turns through `center` about x, then y, then z from how it starts; the angles are interpolated, so 720 is " \
          "two turns")                                                                                                 \
     KEY(double, arm_angle, automatic, "degrees", 0, 80, "mannequin: arm below the horizontal; automatic: as before")  \
-    WORD(mesh, "", "", "OBJ file of the pose, with the faces of the body's own (shape = mesh); none: as before")
+    WORD(mesh, "", "OBJ file of the pose, with the faces of the body's own (shape = mesh); none: as before")
 
-#define FABRIC_KEYS(KEY, WORD, CURVE)                                                                                  \
-    WORD(base, "", "", "preset whose values are used where this table is silent")                                      \
+#define FABRIC_KEYS(KEY, WORD, CHOICE, CURVE)                                                                          \
+    WORD(base, "", "preset whose values are used where this table is silent")                                          \
     KEY(double, areal_density, automatic, "kg/m^2", 0.005, 5, "mass per area")                                         \
     KEY(double, thickness, automatic, "m", 1e-5, 0.02, "thickness")                                                    \
     KEY(double, stretch_weft, automatic, "N/m", 0.1, 1e7,                                                              \
@@ -102,8 +103,8 @@
     CURVE(shear_curve, shear, shear,                                                                                   \
           "shear in place of `shear`: angle phi [rad], shear force over length [N/m]; read as g = sin(phi), as of "    \
           "yarns that keep their length, and s = F")                                                                   \
-    WORD(curve, "", "piecewise|smooth",                                                                                \
-         "between the points of this table's curves: straight, which is the default, or monotone cubic")               \
+    CHOICE(curve, CurveShape, not_given,                                                                               \
+           "between the points of this table's curves: straight, which is the default, or monotone cubic")             \
     KEY(double, stretch_limit, automatic, "1", 0, 10,                                                                  \
         "elongation beyond which weft and warp stiffen; 0, the default: none")                                         \
     KEY(double, shear_limit, automatic, "rad", 0, 1.5,                                                                 \
@@ -121,18 +122,16 @@
     KEY(double, hysteresis_warp, automatic, "N", 0, 0.1, "2HB along warp, as for weft")                                \
     KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient against a body")                                 \
     KEY(double, damping, automatic, "1/s", 0, 1000, "viscous drag per unit mass")                                      \
-    WORD(source, "", "", "where the values come from")
+    WORD(source, "", "where the values come from")
 
-#define SOLVER_KEYS(KEY, WORD, VEC3)                                                                                  \
-    WORD(integrator, "automatic",                                                                                     \
-         "automatic|implicit_euler|bdf2|implicit_midpoint|symplectic_euler|central_difference|velocity_verlet|rk4|"   \
-         "static",                                                                                                    \
-         "how time is advanced while cloth drapes; static: straight to the shape at rest; the explicit ones "         \
-         "(from symplectic_euler to rk4) need short steps and gain energy in contact with bodies")                    \
-    WORD(until, "equilibrium", "", "\"equilibrium\", or the simulated seconds to run")                                \
+#define SOLVER_KEYS(KEY, WORD, CHOICE, VEC3)                                                                          \
+    CHOICE(integrator, IntegratorChoice, automatic,                                                                   \
+           "how time is advanced while cloth drapes; static: straight to the shape at rest; the explicit ones "       \
+           "(from symplectic_euler to rk4) need short steps and gain energy in contact with bodies")                  \
+    WORD(until, "equilibrium", "\"equilibrium\", or the simulated seconds to run")                                    \
     KEY(double, step, 0.02, "s", 1e-6, 1, "time step, twice that towards rest; shrinks where a step fails")           \
-    WORD(unstable_step, "shrink", "shrink|refuse",                                                                    \
-         "what happens to a step above an explicit integrator's stability limit: divided, or an error")               \
+    CHOICE(unstable_step, UnstableStep, shrink,                                                                       \
+           "what happens to a step above an explicit integrator's stability limit: divided, or an error")             \
     KEY(bool, adaptive, false, "1", 0, 1,                                                                             \
         "steps, of at most solver.step, follow the integrator's estimate of its error")                               \
     KEY(double, step_error, 1e-4, "m", 1e-12, 1, "error of one step that adaptive steps allow")                       \
@@ -148,21 +147,21 @@
     KEY(double, max_wall, 0, "s", 0, 1e7, "wall time after which the run is saved and ends; 0: no limit")             \
     KEY(int, newton_iterations, 40, "1", 1, 1000, "Newton iterations per step before it is retried smaller")          \
     KEY(int, linear_iterations, 600, "1", 1, 100000, "conjugate-gradient iterations per Newton iteration")            \
-    WORD(preconditioner, "auto", "auto|block_jacobi|multigrid",                                                       \
-         "preconditioner of the conjugate gradients; auto: multigrid where levels exist")                             \
-    WORD(precision, "automatic", "automatic|float|double",                                                            \
-         "of the linear solves; automatic: float up to 500 000 vertices. State and forces are always double")         \
+    CHOICE(preconditioner, PreconditionerChoice, automatic,                                                           \
+           "preconditioner of the conjugate gradients; auto: multigrid where levels exist")                           \
+    CHOICE(precision, PrecisionChoice, automatic,                                                                     \
+           "of the linear solves; automatic: float up to 500 000 vertices. State and forces are always double")       \
     KEY(int, threads, 0, "1", 0, 1024, "worker threads; 0: all cores")                                                \
     VEC3(gravity, 0, 0, -9.81, "m/s^2", "acceleration")                                                               \
     KEY(double, frame_rate, 30, "1/s", 0.01, 10000, "frames written per simulated second")                            \
     KEY(double, memory_limit, 0, "bytes", 0, 1e15, "refuse scenes that need more; 0: the machine's memory")
 
-#define CONTACT_KEYS(KEY, WORD, VEC3)                                                                                 \
-    WORD(response, "barrier", "barrier|velocity_rule|exponential",                                                    \
-         "what keeps surfaces apart. Two are for comparison and do not carry the guarantee that nothing crosses: "    \
-         "velocity_rule turns the velocities of vertices on bodies around after each step (no cloth on cloth, no "    \
-         "rest to "                                                                                                   \
-         "equilibrium); exponential is a bounded force that can be overcome")                                         \
+#define CONTACT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                         \
+    CHOICE(response, ContactResponse, barrier,                                                                        \
+           "what keeps surfaces apart. Two are for comparison and do not carry the guarantee that nothing crosses: "  \
+           "velocity_rule turns the velocities of vertices on bodies around after each step (no cloth on cloth, no "  \
+           "rest to "                                                                                                 \
+           "equilibrium); exponential is a bounded force that can be overcome")                                       \
     KEY(double, restitution, automatic, "1", 0, 1,                                                                    \
         "normal velocity of a vertex after an impact over that before; only with response = \"velocity_rule\"; "      \
         "automatic: 0")                                                                                               \
@@ -174,22 +173,24 @@
     KEY(bool, body, true, "1", 0, 1, "contact between cloth and bodies")                                              \
     KEY(bool, self, true, "1", 0, 1, "contact of the cloth with itself; without it cloth passes through cloth")
 
-#define MEMBRANE_KEYS(KEY, WORD, VEC3)                                                                                \
-    WORD(model, "orthotropic", "orthotropic|springs|none",                                                            \
-         "in-plane model of the cloth; springs follow stretch and shear at small strain, coupling becomes the shear " \
-         "stiffness")                                                                                                 \
+#define MEMBRANE_KEYS(KEY, WORD, CHOICE, VEC3)                                                                       \
+    CHOICE(                                                                                                          \
+        model, MembraneModel, orthotropic,                                                                           \
+        "in-plane model of the cloth; springs follow stretch and shear at small strain, coupling becomes the shear " \
+        "stiffness")                                                                                                 \
     KEY(double, scale, 1, "1", 0, 1e6, "multiplies every membrane stiffness")
 
-#define BENDING_KEYS(KEY, WORD, VEC3)                                                                                  \
-    WORD(model, "automatic", "automatic|plate|hinge|springs|none",                                                     \
-         "bending model: plate shows the fabric's rigidity on any mesh, plain hinges err by 0.75 to 3 times, springs " \
-         "match it at a curvature of 50/m only; automatic: springs if the membrane is of springs, else plate")         \
-    KEY(double, scale, 1, "1", 0, 1e6, "multiplies every bending rigidity")                                            \
-    KEY(bool, hysteresis, false, "1", 0, 1,                                                                            \
-        "friction as the cloth bends, from the fabrics' hysteresis_weft and hysteresis_warp: folds partly stay; not "  \
+#define BENDING_KEYS(KEY, WORD, CHOICE, VEC3)                                                                         \
+    CHOICE(                                                                                                           \
+        model, BendingModel, automatic,                                                                               \
+        "bending model: plate shows the fabric's rigidity on any mesh, plain hinges err by 0.75 to 3 times, springs " \
+        "match it at a curvature of 50/m only; automatic: springs if the membrane is of springs, else plate")         \
+    KEY(double, scale, 1, "1", 0, 1e6, "multiplies every bending rigidity")                                           \
+    KEY(bool, hysteresis, false, "1", 0, 1,                                                                           \
+        "friction as the cloth bends, from the fabrics' hysteresis_weft and hysteresis_warp: folds partly stay; not " \
         "while sewing")
 
-#define SEAMS_KEYS(KEY, WORD, VEC3)                                                                               \
+#define SEAMS_KEYS(KEY, WORD, CHOICE, VEC3)                                                                       \
     KEY(double, stiffness, 4e4, "N/m^2", 1e-1, 1e9, "seam force per metre of seam and metre of gap")              \
     KEY(double, force_limit, 1.5, "N/m", 1e-4, 1e6, "seam force per metre of seam where the edges are far apart") \
     KEY(double, stiffening, 50, "1", 1, 1e6,                                                                      \
@@ -197,16 +198,16 @@
     KEY(double, closed, 0.002, "m", 1e-6, 0.1, "gap below which a pair counts as closed and is joined")           \
     KEY(double, max_time, 20, "s", 0.01, 1e4, "simulated time after which sewing gives up")
 
-#define PINS_KEYS(KEY, WORD, VEC3)                                                                                   \
-    WORD(sheet, "none", "none|corners|top_corners|right_corners|top_edge|left_edge|right_edge|two_rows|center",      \
-         "which vertices of a sheet are held; top is +warp, left is -weft, two_rows holds the first two columns at " \
-         "the left, center the vertex nearest to the middle")                                                        \
-    WORD(vertices, "", "", "indices of further held vertices, separated by commas")
+#define PINS_KEYS(KEY, WORD, CHOICE, VEC3)                                                                             \
+    CHOICE(sheet, PinGroup, none,                                                                                      \
+           "which vertices of a sheet are held; top is +warp, left is -weft, two_rows holds the first two columns at " \
+           "the left, center the vertex nearest to the middle")                                                        \
+    WORD(vertices, "", "indices of further held vertices, separated by commas")
 
 // [[pins.motion]]: a group of vertices that is held and moves; several are applied one after the other.
-#define PIN_MOTION_KEYS(KEY, WORD, VEC3)                                                                       \
-    WORD(group, "corners", "corners|top_corners|right_corners|top_edge|left_edge|right_edge|center",           \
-         "which vertices of a sheet move, as for pins.sheet; they are held from the start")                    \
+#define PIN_MOTION_KEYS(KEY, WORD, CHOICE, VEC3)                                                               \
+    CHOICE(group, MovingPinGroup, corners,                                                                     \
+           "which vertices of a sheet move, as for pins.sheet; they are held from the start")                  \
     KEY(double, start, 0, "s", 0, 1e6, "when the motion begins")                                               \
     KEY(double, end, 1, "s", 0, 1e6, "when it ends; the vertices then stay held")                              \
     VEC3(velocity, 0, 0, 0, "m/s", "of the group while it moves")                                              \
@@ -214,10 +215,10 @@
     VEC3(axis, 0, 0, 1, "1", "direction of the axis")                                                          \
     VEC3(point, 0, 0, 0, "m", "a point of the axis")
 
-#define WIND_KEYS(KEY, WORD, VEC3) VEC3(velocity, 0, 0, 0, "m/s", "wind; zero: none")
+#define WIND_KEYS(KEY, WORD, CHOICE, VEC3) VEC3(velocity, 0, 0, 0, "m/s", "wind; zero: none")
 
-#define OUTPUT_KEYS(KEY, WORD, VEC3)                                                                             \
-    WORD(precision, "8um", "lossless|8um|60um", "grid to which written positions are rounded")                   \
+#define OUTPUT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                     \
+    CHOICE(precision, PositionGrid, fine_8um, "grid to which written positions are rounded")                     \
     KEY(bool, frames, true, "1", 0, 1, "write every frame; false: only the last one")                            \
     KEY(bool, sewing, true, "1", 0, 1, "write sewing.h5; not where a coarser mesh is sewn (solver.progressive)") \
     KEY(bool, picture, true, "1", 0, 1, "render preview.png")                                                    \

@@ -95,11 +95,10 @@ void TableReader::read(const char* name, Vec3& target, const char* unit)
     }
 }
 
-void TableReader::read(const char* name, std::string& target, const char* choices)
+void TableReader::read(const char* name, std::string& target)
 {
     const toml::node* node = find(name);
     if (!node) return;
-    const std::vector<std::string> words = split_choices(choices);
     const auto* text = node->as_string();
     // `until` alone is a word or a number; it is kept as text either way.
     const std::optional<double> number = number_of(*node);
@@ -107,14 +106,20 @@ void TableReader::read(const char* name, std::string& target, const char* choice
         target = number_text(*number);
         return;
     }
-    if (words.empty()) {
-        if (!text) refuse(name, *node, "a text in quotes");
-    } else if (!text || std::find(words.begin(), words.end(), text->get()) == words.end()) {
-        std::string expected = "one of";
-        for (const std::string& word : words) expected += (word == words.front() ? " \"" : ", \"") + word + "\"";
-        refuse(name, *node, expected, text ? nearest_name(text->get(), words) : "");
-    }
+    if (!text) refuse(name, *node, "a text in quotes");
     target = text->get();
+}
+
+std::optional<std::string> TableReader::read_word(const char* name, std::span<const std::string_view> words)
+{
+    const toml::node* node = find(name);
+    if (!node) return std::nullopt;
+    const std::vector<std::string> accepted = accepted_words(words);
+    const auto* text = node->as_string();
+    if (text && std::find(accepted.begin(), accepted.end(), text->get()) != accepted.end()) return text->get();
+    std::string expected = "one of";
+    for (const std::string& word : accepted) expected += (word == accepted.front() ? " \"" : ", \"") + word + "\"";
+    refuse(name, *node, expected, text ? nearest_name(text->get(), accepted) : "");
 }
 
 void TableReader::read(const char* name, std::vector<Vec2>& target, int most, double largest_strain,

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "io/errors.hpp"
 #include "io/geometry.hpp"
+#include "io/words.hpp"
 
 namespace selvage {
 
@@ -46,8 +48,15 @@ public:
     void read(const char* name, int& target, const char* unit, double low, double high);
     void read(const char* name, bool& target, const char* unit, double low, double high);
     void read(const char* name, Vec3& target, const char* unit);
-    /// @param choices  accepted words separated by |, or "" for any text
-    void read(const char* name, std::string& target, const char* choices);
+    /// Reads any text.
+    void read(const char* name, std::string& target);
+    /// Reads a word of an enumeration; "" stands for a key that is not given and is not accepted.
+    template <WordEnum Choice>
+    void read(const char* name, Choice& target)
+    {
+        if (const std::optional<std::string> word = read_word(name, words_of<Choice>()))
+            target = find_word<Choice>(*word).value();
+    }
     /// Reads up to `most` points [[strain, stress], ...] in which both numbers increase from above 0; a first point
     /// [0, 0] may be given and is left out of the target.
     void read(const char* name, std::vector<Vec2>& target, int most, double largest_strain, const char* strain_unit);
@@ -68,6 +77,8 @@ public:
 
 private:
     const toml::node* find(const char* name);
+    /// Returns one of the words, or nothing when the key is absent.
+    std::optional<std::string> read_word(const char* name, std::span<const std::string_view> words);
     std::string key_path(std::string_view name) const;
     [[noreturn]] void refuse(const char* name, const toml::node& node, std::string_view expected,
                              std::string_view nearest = {}) const;

@@ -26,6 +26,13 @@ struct TableText {
     std::vector<KeyText> keys;
 };
 
+std::string joined(const std::vector<std::string>& words, const char* between)
+{
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
 template <class T>
 KeyText number_key(const char* name, T initial, const char* unit, double low, double high, const char* meaning)
 {
@@ -46,14 +53,20 @@ KeyText number_key(const char* name, T initial, const char* unit, double low, do
     return key;
 }
 
-KeyText word_key(const char* name, const char* initial, const char* choices, const char* meaning)
+KeyText text_key(const char* name, const char* initial, const char* meaning)
 {
-    const std::vector<std::string> words = split_choices(choices);
-    KeyText key{name, words.empty() ? "text" : "word", '"' + std::string(initial) + '"', "", choices, meaning, {}};
-    std::replace(key.range.begin(), key.range.end(), '|', ' ');
-    if (words.empty()) key.range = "any text";
+    KeyText key{name, "text", '"' + std::string(initial) + '"', "", "any text", meaning, {}};
     key.json = {{"name", name}, {"type", key.type}, {"default", initial}, {"meaning", meaning}};
-    if (!words.empty()) key.json["choices"] = words;
+    return key;
+}
+
+KeyText choice_key(const char* name, WordEnum auto initial, const char* meaning)
+{
+    KeyText key = text_key(name, text_of(initial).c_str(), meaning);
+    const std::vector<std::string> words = accepted_words(words_of<decltype(initial)>());
+    key.type = key.json["type"] = "word";
+    key.range = joined(words, " ");
+    key.json["choices"] = words;
     return key;
 }
 
@@ -74,12 +87,13 @@ KeyText curve_key(const char* name, const char* meaning)
 
 #define LIST_KEY(type, name, initial, unit, low, high, meaning) \
     number_key<type>(#name, initial, unit, low, high, meaning),
-#define LIST_WORD(name, initial, choices, meaning) word_key(#name, initial, choices, meaning),
+#define LIST_WORD(name, initial, meaning) text_key(#name, initial, meaning),
+#define LIST_CHOICE(name, type, initial, meaning) choice_key(#name, type::initial, meaning),
 #define LIST_CURVE(name, number, measure, meaning) curve_key(#name, meaning),
 #define LIST_VEC3(name, x, y, z, unit, meaning) vector_key(#name, x, y, z, unit, meaning),
 std::vector<TableText> tables()
 {
-    const std::vector<KeyText> top{word_key("summary", "", "", "what the scene shows, in one sentence"),
+    const std::vector<KeyText> top{text_key("summary", "", "what the scene shows, in one sentence"),
                                    KeyText{"parameters",
                                            "list of texts",
                                            "[]",
@@ -92,51 +106,48 @@ std::vector<TableText> tables()
                                             {"meaning", "keys that are commonly overridden"}}}};
     std::vector<TableText> list{{"(top of the file)", "", "the scene itself", false, top}};
 #define SCENE_TABLE(name, type, keys, meaning) \
-    list.push_back({"[" #name "]", #name, meaning, false, {keys(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+    list.push_back({"[" #name "]", #name, meaning, false, {keys(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
     SCENE_TABLES(SCENE_TABLE)
 #undef SCENE_TABLE
     list.push_back(
         {"[garment.fabrics]", "garment.fabrics", "fabrics of single panels, as PANEL = \"FABRIC\"", false, {}});
-    list.push_back(
-        {"[[sheet]]", "sheet", "plain cloth; may be repeated", true, {SHEET_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+    list.push_back({"[[sheet]]",
+                    "sheet",
+                    "plain cloth; may be repeated",
+                    true,
+                    {SHEET_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
     list.push_back({"[[body]]",
                     "body",
                     "what the cloth falls on; may be repeated",
                     true,
-                    {BODY_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+                    {BODY_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
     list.push_back(
         {"[[body.keyframe]]",
          "body.keyframe",
          "where a body is at a time, under its [[body]]; it moves from one to the next and stays at the last",
          true,
-         {KEYFRAME_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+         {KEYFRAME_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
     list.push_back({"[[pins.motion]]",
                     "pins.motion",
                     "held vertices that move; those that share vertices act one after the other on where these are",
                     true,
-                    {PIN_MOTION_KEYS(LIST_KEY, LIST_WORD, LIST_VEC3)}});
+                    {PIN_MOTION_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
     list.push_back({"[fabric.NAME]",
                     "fabric.NAME",
                     "a fabric of the scene's own, or changes to a built-in one",
                     false,
-                    {FABRIC_KEYS(LIST_KEY, LIST_WORD, LIST_CURVE)}});
+                    {FABRIC_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_CURVE)}});
     return list;
 }
 #undef LIST_KEY
 #undef LIST_WORD
+#undef LIST_CHOICE
 #undef LIST_VEC3
 #undef LIST_CURVE
 
 void append_column(std::string& line, const std::string& text, std::size_t width)
 {
     line += text + std::string(width - std::min(width, text.size()) + 2, ' ');
-}
-
-std::string joined(const std::vector<std::string>& words)
-{
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
 }
 
 }  // namespace
@@ -165,7 +176,7 @@ std::string scene_schema_text()
             text += line + key.meaning + "\n";
         }
     }
-    return text + "\nBuilt-in fabrics: " + joined(fabric_preset_names()) + "\n";
+    return text + "\nBuilt-in fabrics: " + joined(fabric_preset_names(), ", ") + "\n";
 }
 
 std::string scene_schema_json()

@@ -43,7 +43,7 @@ Vec2 measured_point(CurveMeasure measure, const Vec2& point);
 /// A straight line through the origin. @param slope [N/m]
 StressCurve straight_curve(double slope);
 
-/// Straight between the points and through the origin; the last range goes on (A3).
+/// Straight between the points and through the origin; the last range goes on.
 /// @param points  strain [1] and stress [N/m] of the membrane, both increasing from above 0
 StressCurve piecewise_curve(const std::vector<Vec2>& points);
 
@@ -55,8 +55,7 @@ StressCurve smooth_curve(const std::vector<Vec2>& points);
 /// s = k1 e + k2 e^2 + k3 e^3 (Volino, Magnenat-Thalmann and Faure 2009, section 4).
 StressCurve cubic_curve(double k1, double k2, double k3);
 
-/// Returns the curve with a steep straight range that starts at `limit`: its slope is `factor` times the one there
-/// (C5).
+/// Returns the curve with a steep straight range that starts at `limit`: its slope is `factor` times the one there.
 StressCurve limited_curve(const StressCurve& curve, double limit, double factor);
 
 /// Stress at a strain >= 0 [N/m].

@@ -24,3 +24,32 @@ KERNEL_FN void limit_step_vertex(int vertex, const limit_step_args* a)
     if (gap > REAL(0) && excess > REAL(0) && dot(n, n) > REAL(0))
         store3(a->direction, a->stride, vertex, d + excess * n);
 }
+
+// By how many times the direction exceeds the part of a vertex's gap that one move may take.
+KERNEL_FN real limit_step_excess(int vertex, const limit_step_args* a)
+{
+    real gap = -a->offset[vertex], approach = 0;
+    for (int i = vertex; i < 3 * a->stride; i += a->stride) {
+        gap += a->normal[i] * a->pos[i];
+        approach -= a->normal[i] * a->direction[i];
+    }
+    return gap > REAL(0) ? approach / (gap * LIMIT_STEP_PART) : REAL(0);
+}
+
+typedef struct {
+    GLOBAL const real* RESTRICT normal;
+    GLOBAL const real* RESTRICT direction;
+    real near_bodies, elsewhere;  // longest moves of a vertex with and without a contact plane [m]
+    int stride;
+} limit_move_args;
+
+// The length of a vertex's direction over that of its longest move.
+KERNEL_FN real limit_move_excess(int vertex, const limit_move_args* a)
+{
+    real square_move = 0, square_normal = 0;
+    for (int i = vertex; i < 3 * a->stride; i += a->stride) {
+        square_move += a->direction[i] * a->direction[i];
+        square_normal += a->normal[i] * a->normal[i];
+    }
+    return sqrt(square_move) / (square_normal > REAL(0) ? a->near_bodies : a->elsewhere);
+}

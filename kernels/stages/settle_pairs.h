@@ -8,14 +8,13 @@
 #include "../terms/cloth_friction.h"
 #include "../terms/cloth_repulsion.h"
 
+#define settle_pairs_FIELDS(READ, ADD) ADD(pair_held_weight) ADD(pair_held_normal) ADD(pair_bristle) ADD(pair_limit)
+
 typedef struct {
     cloth_contact_args contact;      // weights, normals and distances are those of the present positions
     cloth_repulsion_args repulsion;  // where contact has no stiffness
     cloth_friction_args friction;
-    GLOBAL real* RESTRICT held_weight;
-    GLOBAL real* RESTRICT held_normal;
-    GLOBAL real* RESTRICT bristle;
-    GLOBAL real* RESTRICT limit;
+    settle_pairs_FIELDS(ARG_READ, ARG_ADD)
 } settle_pairs_args;
 
 KERNEL_FN void settle_pair(int pair, const settle_pairs_args* a)
@@ -26,9 +25,9 @@ KERNEL_FN void settle_pair(int pair, const settle_pairs_args* a)
                                                : cloth_repulsion_push(pair, &a->repulsion);
     real limit = a->friction.pair_friction[pair] * push;
     real part = smaller(REAL(1), a->friction.stick_distance / larger(length(w), REAL(1e-30)));
-    if (a->limit[pair] <= REAL(0) || limit <= REAL(0)) part = REAL(0);
-    store3(a->bristle, ps, pair, part * (w - dot(n, w) * n));
-    store3(a->held_normal, ps, pair, n);
-    for (int i = 0; i < 4; ++i) a->held_weight[i * ps + pair] = a->contact.pair_weight[i * ps + pair];
-    a->limit[pair] = limit;
+    if (a->pair_limit[pair] <= REAL(0) || limit <= REAL(0)) part = REAL(0);
+    store3(a->pair_bristle, ps, pair, part * (w - dot(n, w) * n));
+    store3(a->pair_held_normal, ps, pair, n);
+    for (int i = 0; i < 4; ++i) a->pair_held_weight[i * ps + pair] = a->contact.pair_weight[i * ps + pair];
+    a->pair_limit[pair] = limit;
 }

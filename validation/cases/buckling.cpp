@@ -16,7 +16,7 @@ namespace selvage {
 namespace {
 
 struct Strip {
-    std::string family;
+    MeshFamily family;
     double width;  // over length
     int segments;
     double poisson;
@@ -101,19 +101,21 @@ void check_buckling(CaseReport& report)
             const int segments = width < 0.2 ? 80 : 40;
             report.relative(
                 fmt::format("plate, nu {:g}, w/L {:g}, alternating, n = {}: w L^3 / D", poisson, width, segments),
-                thin_plate(width, poisson), buckling_load({"alternating", width, segments, poisson, true}), 0.03);
+                thin_plate(width, poisson), buckling_load({MeshFamily::alternating, width, segments, poisson, true}),
+                0.03);
         }
-    for (const char* family : {"same_diagonal", "cross"})
-        report.relative(fmt::format("plate, nu 0.35, w/L 0.5, {}, n = 40: w L^3 / D", family), thin_plate(0.5, 0.35),
-                        buckling_load({family, 0.5, 40, 0.35, true}), 0.03);
+    for (const MeshFamily family : {MeshFamily::same_diagonal, MeshFamily::cross})
+        report.relative(fmt::format("plate, nu 0.35, w/L 0.5, {}, n = 40: w L^3 / D", word_of(family)),
+                        thin_plate(0.5, 0.35), buckling_load({family, 0.5, 40, 0.35, true}), 0.03);
     report.from("lateral_hinge_discrete.csv: linear buckling of the same mesh of plain hinges");
-    const std::pair<const char*, const char*> names[] = {
-        {"alternating", "grid_alternating"}, {"same_diagonal", "grid_same_diagonal"}, {"cross", "cross4"}};
+    const std::pair<MeshFamily, const char*> names[] = {{MeshFamily::alternating, "grid_alternating"},
+                                                        {MeshFamily::same_diagonal, "grid_same_diagonal"},
+                                                        {MeshFamily::cross, "cross4"}};
     for (const auto& [family, mesh] : names)
         for (const ReferenceRow& row : reference_table("lateral_hinge_discrete.csv")) {
             const double width = row.number("w_over_L");
             if (row.text("mesh") != mesh || (width != 0.1 && width != 0.5 && width != 0.9)) continue;
-            report.relative(fmt::format("hinge, w/L {:g}, {}, n = 40: w L^3 / k", width, family),
+            report.relative(fmt::format("hinge, w/L {:g}, {}, n = 40: w L^3 / k", width, word_of(family)),
                             row.number("discrete_n40"), buckling_load({family, width, 40, 0, false}), 0.02);
         }
 }

@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/plan.hpp"
+#include "host/scene/run_settings.hpp"
 #include "host/scene/scene_model.hpp"
-#include "host/scene/scene_phase.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
 #include "io/scene/fabric_table.hpp"
 #include "io/scene/read_scene.hpp"
@@ -49,7 +48,7 @@ Fabric measured_fabric(const std::string& name, double& coefficient, int& folds)
     throw std::runtime_error("fabrics_cusick.csv has no fabric " + name);
 }
 
-Scene drape_scene(const Fabric& fabric, const Apparatus& apparatus, int across, const std::string& family)
+Scene drape_scene(const Fabric& fabric, const Apparatus& apparatus, int across, MeshFamily family)
 {
     // The folds do not touch each other, so contact of the cloth with itself would only cost time.
     const std::vector<std::string> choices = {fmt::format("bending.hysteresis={}", fabric.hysteresis_weft > 0),
@@ -66,15 +65,10 @@ Scene drape_scene(const Fabric& fabric, const Apparatus& apparatus, int across, 
 
 std::vector<Vec3> drape_to_rest(const Scene& scene, const SceneModel& model, int load_steps)
 {
-    const PhasePlan plan = make_plan(scene, model).phases.back();
-    PhaseOptions options;
-    options.params = plan.params;
-    options.float_solves = solve_precision(scene, model.model.cloth) == "float";
-    options.linear.max_iterations = scene.solver.linear_iterations;
-    if (!model.model.coarser.empty()) options.linear.preconditioner = Preconditioner::multigrid;
-    BodyQuery query(model.model.bodies, cloth_reach(model.model.cloth));
+    const PhaseOptions options = phase_options(scene, model, false);
+    BodyQuery query(model.cloth_model.bodies, cloth_reach(model.cloth_model.cloth));
     Profile profile;
-    Phase phase(model.model, options, &query, profile, model.model.cloth.positions, {});
+    Phase phase(model.cloth_model, options, &query, profile, model.cloth_model.cloth.positions, {});
     EquilibriumOptions until;
     until.step.longest = scene.solver.step;
     until.tolerance = scene.solver.tolerance;
@@ -98,13 +92,13 @@ void begin_folds(int folds, const Apparatus& apparatus, Cloth& cloth)
     }
 }
 
-DrapeResult drape(const Fabric& fabric, const Apparatus& apparatus, int across, const std::string& family = "panel",
+DrapeResult drape(const Fabric& fabric, const Apparatus& apparatus, int across, MeshFamily family = MeshFamily::panel,
                   int load_steps = 6, int folds = 0)
 {
     const Scene scene = drape_scene(fabric, apparatus, across, family);
     SceneModel model = build_scene_model(scene);
-    if (folds > 0) begin_folds(folds, apparatus, model.model.cloth);
-    const DrapeShadow shadow = drape_shadow(drape_to_rest(scene, model, load_steps), model.model.cloth.faces);
+    if (folds > 0) begin_folds(folds, apparatus, model.cloth_model.cloth);
+    const DrapeShadow shadow = drape_shadow(drape_to_rest(scene, model, load_steps), model.cloth_model.cloth.faces);
     const double support = std::numbers::pi * apparatus.support * apparatus.support;
     const double specimen = std::numbers::pi * apparatus.specimen * apparatus.specimen;
     return {100 * (shadow.area - support) / (specimen - support), shadow.folds};
@@ -128,7 +122,7 @@ void compare_meshes(CaseReport& report, const Fabric& cotton, const std::string&
         "the same drape on other meshes; judged among equal numbers of folds, each being an equilibrium of its own");
     std::vector<double> all;
     std::map<int, std::vector<double>> with_folds;
-    const auto add = [&](const std::string& name, double edge_length, const std::string& family) {
+    const auto add = [&](const std::string& name, double edge_length, MeshFamily family) {
         const DrapeResult result = drape(cotton, {}, across(edge_length), family, 6, folds);
         all.push_back(result.coefficient);
         with_folds[result.folds].push_back(result.coefficient);
@@ -137,11 +131,11 @@ void compare_meshes(CaseReport& report, const Fabric& cotton, const std::string&
         report.inform(fmt::format("cotton broad A, {}, {}: folds", kind, name), folds > 0 ? folds : result.folds,
                       result.folds);
     };
-    add("panel mesh, 4 mm", 4e-3, "panel");
-    add("panel mesh, 6 mm", 6e-3, "panel");
-    add("panel mesh, 3 mm", 3e-3, "panel");
-    for (const char* family : {"equilateral", "square", "irregular"})
-        add(fmt::format("{}, 4 mm", family), 4e-3, family);
+    add("panel mesh, 4 mm", 4e-3, MeshFamily::panel);
+    add("panel mesh, 6 mm", 6e-3, MeshFamily::panel);
+    add("panel mesh, 3 mm", 3e-3, MeshFamily::panel);
+    for (const MeshFamily family : {MeshFamily::equilateral, MeshFamily::square, MeshFamily::irregular})
+        add(fmt::format("{}, 4 mm", word_of(family)), 4e-3, family);
     for (const auto& [count, alike] : with_folds)
         if (alike.size() > 1)
             report.absolute(fmt::format("cotton broad A, {}, {} meshes with {} folds: largest difference [points]",
@@ -170,7 +164,7 @@ void check_cusick(CaseReport& report)
         report.absolute(fmt::format("{}, 30 cm on 18 cm, {:g} mm: drape coefficient [%]", name, 1e3 * edge_length),
                         coefficient, iso.coefficient, 7);
         report.inform(fmt::format("{}, 30 cm on 18 cm: folds", name), folds, iso.folds);
-        const DrapeResult dropped = drape(fabric, {}, across(6e-3), "panel", 1);
+        const DrapeResult dropped = drape(fabric, {}, across(6e-3), MeshFamily::panel, 1);
         report.inform(fmt::format("{}, dropped, 6 mm: drape coefficient [%]", name), coefficient, dropped.coefficient);
         report.inform(fmt::format("{}, dropped, 6 mm: folds", name), folds, dropped.folds);
         if (report.quick()) continue;
@@ -198,7 +192,7 @@ void check_doubling(CaseReport& report)
     std::vector<double> all;
     for (const int vertices : {16, 32, 64, 128, 256}) {
         if (report.quick() && vertices > 64) break;
-        const DrapeResult result = drape(cotton, {}, vertices, "panel", 6, 5);
+        const DrapeResult result = drape(cotton, {}, vertices, MeshFamily::panel, 6, 5);
         all.push_back(result.coefficient);
         report.inform(fmt::format("cotton broad A, {} vertices across: folds", vertices), 5, result.folds);
         report.inform(fmt::format("cotton broad A, {} vertices across: drape coefficient [%]", vertices),

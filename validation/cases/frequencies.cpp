@@ -106,7 +106,7 @@ void drum(CaseReport& report, const std::string& stretch)
 {
     constexpr int columns = 33;
     const double lambda = std::stod(stretch);
-    Cloth cloth = flat_rectangle("alternating", 1, 1, columns);
+    Cloth cloth = flat_rectangle(MeshFamily::alternating, 1, 1, columns);
     for (int v = 0; v < int(cloth.positions.size()); ++v) {
         const Vec2& x = cloth.panel_coordinates[v];
         if (x.x() < 1e-9 || x.x() > 1 - 1e-9 || std::abs(x.y()) > 0.5 - 1e-9) cloth.pinned.push_back(v);
@@ -129,7 +129,7 @@ void reed(CaseReport& report)
 {
     constexpr double length = 0.1, rigidity = 1e-5, areal_density = 0.15;
     constexpr int segments = 60;
-    const Cloth cloth = clamped_strip("alternating", length, 0.1 * length, segments);
+    const Cloth cloth = clamped_strip(MeshFamily::alternating, length, 0.1 * length, segments);
     Params params;
     params.plate.scale = 1;
     Specimen strip(cloth, isotropic_fabric(1, rigidity, 0, areal_density), params);

@@ -7,6 +7,7 @@
 
 #include "host/model/body.hpp"
 #include "host/model/cloth_model.hpp"
+#include "host/solver/state/planes.hpp"
 #include "host/solver/stepping/integrator.hpp"
 #include "host/solver/stepping/phase.hpp"
 #include "host/solver/stepping/step_control.hpp"
@@ -67,7 +68,7 @@ Slide slide_down(double angle, double friction, const char* scheme)
 {
     Body plane;
     plane.kind = Body::Kind::plane;
-    Contact contact(flat_rectangle("alternating", 0.1, 0.1, 5), plane, friction);
+    Contact contact(flat_rectangle(MeshFamily::alternating, 0.1, 0.1, 5), plane, friction);
     Params& params = contact.options.params;
     params.gravity.acceleration_x = gravity * std::sin(angle);
     params.gravity.acceleration_z = -gravity * std::cos(angle);
@@ -141,10 +142,8 @@ Cloth wrapped_strip(double wrap, double strain, double gap)
 
 double pull_on(const State& state, int v, int w)
 {
-    const int vs = state.size.vertex_stride;
-    Vec3 force = Vec3::Zero();
-    for (int c = 0; c < 3; ++c) force[c] = state.force[c * vs + v] + state.force[c * vs + w];
-    return force.norm();
+    const ConstPlanes force = vertex_planes(state.size, state.force);
+    return (force(v) + force(w)).norm();
 }
 
 // Returns the ratio of the tensions at the two ends of the sliding strip, averaged over the time in which it moves by
@@ -163,7 +162,7 @@ double capstan_ratio(double wrap, double friction)
     Phase phase(contact.model, contact.options, &query, profile, contact.model.cloth.positions, {});
     const auto integrator = make_integrator("implicit_euler", phase);
     constexpr double dt = 0.01;
-    StepControl control(phase, *integrator, {.longest = dt, .start = 0});
+    StepControl control(phase, *integrator, {.longest = dt, .moves_boundary = true});
     NewtonOptions newton;
     newton.max_iterations = 60;
     newton.tolerance = 1e-4;
@@ -175,7 +174,7 @@ double capstan_ratio(double wrap, double friction)
     for (int step = 0; step < (edges_before + 1) * steps_per_edge; ++step) {
         for (double left = dt; left > 1e-9;) left -= control.advance(left, newton, true);
         if (step < edges_before * steps_per_edge) continue;
-        phase.newton().static_residual();  // stores the forces in the state
+        phase.system().evaluate_forces(false);
         slack_side += pull_on(phase.state(), 0, columns);
         tight_side += pull_on(phase.state(), columns - 1, 2 * columns - 1);
     }

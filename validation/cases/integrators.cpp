@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/model/cloth_model.hpp"
+#include "host/solver/state/planes.hpp"
 #include "host/solver/terms/cloth_state.hpp"
 #include "validation/cases/cases.hpp"
 #include "validation/measure/oscillator.hpp"
@@ -89,7 +90,7 @@ public:
     void step(double dt) { integrator_->step(dt, exact_steps()); }
     double x() const { return phase_->state().pos[1]; }
     double y() const { return phase_->state().pos[2 * phase_->state().size.vertex_stride + 1]; }
-    double energy() { return phase_->newton().potential_energy() + phase_->newton().kinetic_energy(); }
+    double energy() { return phase_->system().potential_energy() + phase_->system().kinetic_energy(); }
 
 private:
     ClothModel model_;
@@ -145,7 +146,7 @@ struct Sheet {
 
     Sheet()
     {
-        model.cloth = flat_rectangle("alternating", 0.15, 0.15, 4);
+        model.cloth = flat_rectangle(MeshFamily::alternating, 0.15, 0.15, 4);
         Fabric fabric = isotropic_fabric(20, 1e-5, 0, 0.2);
         model.fabrics = {{specimen_fabric, fabric}};
         options.params.membrane.scale = options.params.plate.scale = 1;
@@ -183,11 +184,8 @@ double observed_order(std::string_view name, int steps)
 Vec3 momentum(const State& s, bool angular)
 {
     Vec3 sum = Vec3::Zero();
-    const int vs = s.size.vertex_stride;
-    for (int v = 0; v < s.size.vertex_count; ++v) {
-        const Vec3 x(s.pos[v], s.pos[vs + v], s.pos[2 * vs + v]), u(s.vel[v], s.vel[vs + v], s.vel[2 * vs + v]);
-        sum += s.mass[v] * (angular ? Vec3(x.cross(u)) : u);
-    }
+    const ConstPlanes x = vertex_planes(s.size, s.pos), u = vertex_planes(s.size, s.vel);
+    for (int v = 0; v < x.count; ++v) sum += s.mass[v] * (angular ? Vec3(x(v).cross(u(v))) : u(v));
     return sum;
 }
 
@@ -216,13 +214,13 @@ void rotation(CaseReport& report, const IntegratorInfo& info)
     for (const Vec3& x : sheet.model.cloth.positions) sheet.velocities.push_back(drift + spin.cross(x - middle));
     Phase phase = sheet.phase();
     const Vec3 linear = momentum(phase.state(), false), angular = momentum(phase.state(), true);
-    const double energy = phase.newton().kinetic_energy();
+    const double energy = phase.system().kinetic_energy();
     sheet.run(phase, info.name, 1e-3, 500);
     report.from("a free sheet keeps its momentum; symplectic schemes keep its spin and nearly its energy");
     report.absolute(fmt::format("{}: free spinning sheet, change of momentum, relative", info.name), 0,
                     (momentum(phase.state(), false) - linear).norm() / linear.norm(), 1e-9);
     const double turned = momentum(phase.state(), true).z();
-    const double total = phase.newton().kinetic_energy() + phase.newton().potential_energy();
+    const double total = phase.system().kinetic_energy() + phase.system().potential_energy();
     // Central differences give the velocity to second order only; the other schemes lose or gain angular momentum.
     const bool keeps_spin =
         info.name == "implicit_midpoint" || info.name == "velocity_verlet" || info.name == "symplectic_euler";
@@ -240,7 +238,7 @@ void rotation(CaseReport& report, const IntegratorInfo& info)
 // Joining sewn vertices to one particle must conserve mass, momentum and the centre of mass.
 void joining(CaseReport& report)
 {
-    Cloth cloth = flat_rectangle("irregular", 0.3, 0.2, 7);
+    Cloth cloth = flat_rectangle(MeshFamily::irregular, 0.3, 0.2, 7);
     const int vertices = int(cloth.positions.size());
     std::vector<Vec3> velocities;
     for (int v = 0; v < vertices; ++v) {
@@ -255,11 +253,10 @@ void joining(CaseReport& report)
     for (const bool joined : {false, true}) {
         const State s = make_state(make_topology(cloth, joined), cloth, fabrics, params, cloth.positions, velocities);
         centre[joined] = total[joined] = Vec3::Zero();
-        for (int v = 0; v < s.size.vertex_count; ++v)
-            for (int c = 0; c < 3; ++c) {
-                centre[joined][c] += s.mass[v] * s.pos[c * s.size.vertex_stride + v];
-                total[joined][c] += s.mass[v] * s.vel[c * s.size.vertex_stride + v];
-            }
+        for (int v = 0; v < s.size.vertex_count; ++v) {
+            centre[joined] += s.mass[v] * vertex_planes(s.size, s.pos)(v);
+            total[joined] += s.mass[v] * vertex_planes(s.size, s.vel)(v);
+        }
     }
     report.from("conservation of mass and momentum");
     report.absolute("seams join: change of momentum, relative", 0, (total[1] - total[0]).norm() / total[0].norm(),

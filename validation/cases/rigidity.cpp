@@ -21,9 +21,9 @@ constexpr double directions[] = {0, 22.5, 45, 67.5, 90};  // [degrees]
 constexpr int columns = 48, window = 24, band = 4;  // cells: of the sheet, of the measured window, pinned at the rim
 constexpr double curvature = 1e-3;                  // small enough for the theory of flat plates [1/m]
 
-double row_height(const std::string& family)
+double row_height(MeshFamily family)
 {
-    return (family == "equilateral" ? 0.5 * std::numbers::sqrt3 : 1.0) / columns;
+    return (family == MeshFamily::equilateral ? 0.5 * std::numbers::sqrt3 : 1.0) / columns;
 }
 
 // Returns the energy of the hinges whose middle lies in the window. The window spans whole periods of the regular mesh
@@ -76,7 +76,7 @@ void relax_inside(Specimen& sheet, const std::vector<Vec2>& rest, double row)
 
 // Returns the effective rigidity D of a sheet bent to a cylinder whose curved direction makes this angle with weft. The
 // fabric's D is 1.
-double shown_rigidity(const std::string& family, double angle, bool plate)
+double shown_rigidity(MeshFamily family, double angle, bool plate)
 {
     const double row = row_height(family);
     const Cloth cloth = flat_rectangle(family, 1, columns * row, columns + 1);
@@ -105,7 +105,7 @@ double hinge_rigidity(const std::string& mesh, double angle)
 }
 
 // Returns the drop of the free end divided by w L^4 / (8 D), under a load so small that linear beam theory holds.
-double tip_drop(const std::string& family)
+double tip_drop(MeshFamily family)
 {
     constexpr double length = 0.1, weight = 9.81 * 0.15, gamma = 0.01,
                      rigidity = weight * length * length * length / gamma;
@@ -127,26 +127,27 @@ double tip_drop(const std::string& family)
 void check_rigidity(CaseReport& report)
 {
     report.from("the fabric's own rigidity");
-    for (const std::string& family : rectangle_families())
+    for (MeshFamily family : rectangle_families())
         for (const double angle : directions)
-            report.relative(fmt::format("plate, {}, {:g} degrees, D shown / D", family, angle), 1,
+            report.relative(fmt::format("plate, {}, {:g} degrees, D shown / D", word_of(family), angle), 1,
                             shown_rigidity(family, angle, true), 0.02);
     report.from("cantilever under small load: w L^4 / (8 D)");
-    for (const std::string& family : rectangle_families())
-        report.relative(fmt::format("plate, {}, tip of a strip / (w L^4 / 8 D)", family), 1, tip_drop(family), 0.02);
+    for (MeshFamily family : rectangle_families())
+        report.relative(fmt::format("plate, {}, tip of a strip / (w L^4 / 8 D)", word_of(family)), 1, tip_drop(family),
+                        0.02);
     report.from("hinge_effective_bending.csv: periodic homogenisation of plain hinges");
-    const std::pair<const char*, const char*> names[] = {{"equilateral", "equilateral"},
-                                                         {"same_diagonal", "grid_same_diagonal"},
-                                                         {"alternating", "grid_alternating"},
-                                                         {"rows", "grid_rows"},
-                                                         {"cross", "cross4"}};
+    const std::pair<MeshFamily, const char*> names[] = {{MeshFamily::equilateral, "equilateral"},
+                                                        {MeshFamily::same_diagonal, "grid_same_diagonal"},
+                                                        {MeshFamily::alternating, "grid_alternating"},
+                                                        {MeshFamily::rows, "grid_rows"},
+                                                        {MeshFamily::cross, "cross4"}};
     for (const auto& [family, mesh] : names)
         for (const double angle : {0.0, 22.5, 45.0})
-            report.relative(fmt::format("hinge, {}, {:g} degrees, D shown / D", family, angle),
+            report.relative(fmt::format("hinge, {}, {:g} degrees, D shown / D", word_of(family), angle),
                             hinge_rigidity(mesh, angle), shown_rigidity(family, angle, false), 0.02);
     report.from("random_delaunay of hinge_effective_bending.csv, a similar mesh");
     report.inform("hinge, irregular, 0 degrees, D shown / D", hinge_rigidity("random_delaunay", 0),
-                  shown_rigidity("irregular", 0, false));
+                  shown_rigidity(MeshFamily::irregular, 0, false));
 }
 
 }  // namespace selvage

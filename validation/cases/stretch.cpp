@@ -56,7 +56,7 @@ Mismatch patch(const ReferenceRow& row, const Fabric& fabric)
 {
     const Mat2 strain = matrix(row, "F"), stress = matrix(row, "P");
     const bool free_sides = row.text("case") == "uniaxial_free";
-    Cloth cloth = flat_rectangle("irregular", width, height, 13);
+    Cloth cloth = flat_rectangle(MeshFamily::irregular, width, height, 13);
     for (int v = 0; v < int(cloth.positions.size()); ++v) {
         const Vec2 x = strain * cloth.panel_coordinates[v];
         const bool held = on_rim(cloth.panel_coordinates[v], free_sides);
@@ -69,7 +69,7 @@ Mismatch patch(const ReferenceRow& row, const Fabric& fabric)
     sheet.balance(1e-11);
     Mismatch mismatch;
     const double area = width * height, energy = row.number("W") * area;
-    mismatch.energy = std::abs(sheet.newton().potential_energy() - energy) / energy;
+    mismatch.energy = std::abs(sheet.system().potential_energy() - energy) / energy;
     for (const int axis : {0, 1}) {
         const double side = axis == 0 ? height : width;
         Vec3 total = Vec3::Zero();

@@ -357,8 +357,8 @@ class BadOutput(BadInput):
         scene = [*self.SCENE, "-o", self.path("out"), "--set", "output.keep_checkpoint=true"]
         for name, damage, word in [
             ("no positions", lambda: drop("pos"), r"checkpoint\.h5"),
-            ("no counters", lambda: drop("counts"), r"checkpoint\.h5"),
-            ("short clock", lambda: shorten("clock"), r"checkpoint\.h5"),
+            ("no counters", lambda: drop("counters.steps"), r"checkpoint\.h5"),
+            ("no time", lambda: drop("time"), r"checkpoint\.h5"),
             ("short velocities", lambda: shorten("vel"), r"checkpoint\.h5"),
             ("another file", swap_in_another_file, r"checkpoint\.h5"),
             ("half a file", cut, r"checkpoint\.h5"),

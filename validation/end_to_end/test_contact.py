@@ -180,7 +180,7 @@ class Contact(unittest.TestCase):
                 with h5py.File(os.path.join(folder, "checkpoint.h5"), "r") as file:
                     found = []
                     file.visititems(lambda name, item:
-                                    found.append(item.size) if name.endswith("pair_memory") else None)
+                                    found.append(item.size) if name.endswith("pair_friction") else None)
                     remembered = max(found, default=0)
             except OSError:   # it is not there yet, or just being replaced
                 continue

@@ -28,8 +28,8 @@ INNER_LAYERS = {
                     ["host/solver/stepping"], ["host/solver/stepping/integrators"]],
     "bench": [["bench/harness"], ["bench/suites"], ["bench"]],
     "validation": [["validation/measure"], ["validation/cases"], ["validation"], ["validation/unit"],
-                   ["validation/unit/collision", "validation/unit/garment", "validation/unit/io", "validation/unit/run",
-                    "validation/unit/solver"]],
+                   ["validation/unit/collision", "validation/unit/contact", "validation/unit/garment",
+                    "validation/unit/io", "validation/unit/run", "validation/unit/solver"]],
 }
 
 

@@ -23,7 +23,7 @@ PRECISIONS = {
 # pointers cannot be the argument of an entry. The lists of terms and fields write them.
 ENTRIES = """
 #include "kernels/terms.h"
-#include "kernels/rules.h"
+#include "kernels/velocity_filters.h"
 #define BUFFER_READ(name) GLOBAL const name##_type* RESTRICT name##_buffer,
 #define BUFFER_ADD(name) GLOBAL name##_type* RESTRICT name##_buffer,
 #define VALUE(name, initial, unit, meaning) real name##_value,
@@ -41,12 +41,12 @@ ENTRIES = """
         if (item < size.kind##_count) { call }                                                             \\
     }
 #define no_stage(item, args)
-#define TERM(term, kind, nature, stage)                                                                    \\
+#define TERM(term, kind, nature, stage, family)                                                            \\
     ENTRY(term, kind, stage(item, &args); term##_force(item, &args); term##_stiffness(item, &args);        \\
           energy[item] = term##_energy(item, &args);, energy)
-#define RULE(rule, kind) ENTRY(rule, kind, rule##_apply(item, step[0], &args);, step)
+#define VELOCITY_FILTER(rule, kind) ENTRY(rule, kind, rule##_apply(item, step[0], &args);, step)
 TERMS(TERM)
-RULES(RULE)
+VELOCITY_FILTERS(VELOCITY_FILTER)
 """
 
 # Lines that are legal in C++ but not in OpenCL C 1.2, and one that a device without double does not know.
@@ -92,7 +92,7 @@ class Kernels(unittest.TestCase):
                 self.assert_compiles(including("kernels/terms.h", *kernel_files()), *options)
 
     def test_every_term_and_rule_compiles_to_an_entry_of_a_device(self):
-        terms = list((ROOT / "kernels/terms").glob("*.h")) + list((ROOT / "kernels/rules").glob("*.h"))
+        terms = list((ROOT / "kernels/terms").glob("*.h")) + list((ROOT / "kernels/velocity_filters").glob("*.h"))
         for precision, options in PRECISIONS.items():
             with self.subTest(precision=precision):
                 code = self.assert_compiles(ENTRIES, *options)

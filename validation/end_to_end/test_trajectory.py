@@ -16,8 +16,8 @@ GRID = 2.0 ** -17   # output.precision = "8um" [m]
 
 SUMMARY_KEYS = {
     "status", "scene", "version", "threads", "precision", "vertices", "triangles", "steps", "frames", "simulated_s",
-    "wall_s", "phases", "kernels", "active", "skipped", "peak_memory_bytes", "residual", "energy", "stretch", "body",
-    "self", "seams", "panels"}
+    "wall_s", "phases", "kernels", "integrators", "active", "skipped", "peak_memory_bytes", "residual", "energy",
+    "stretch", "body", "self", "seams", "panels"}
 SUMMARY_PARTS = {
     "energy": {"membrane_J", "bending_J", "gravity_J", "contact_J", "kinetic_J"},
     "stretch": {"min", "max", "p99"},

@@ -1,6 +1,7 @@
 #include "validation/measure/finite_differences.hpp"
 
 #include "host/parallel/launch.hpp"
+#include "host/solver/terms/bound_args.hpp"
 #include "kernels/terms/cloth_repulsion.h"
 #include "validation/measure/stiffness.hpp"
 
@@ -9,22 +10,10 @@ namespace {
 
 // Returns the force of contact at state.pos with the weights and normals that the state already holds.
 template <auto Force, class Args>
-std::vector<real> force_with_fixed_normals(State& state, double stiffness)
+std::vector<real> force_with_fixed_normals(State& state, const Params& params)
 {
-    Args a{};
-    a.size = state.size;
-    a.pair_area = state.pair_area.data();
-    a.pair_gap = state.pair_gap.data();
-    a.pair_weight = state.pair_weight.data();
-    a.pair_normal = state.pair_normal.data();
-    a.pair_distance = state.pair_distance.data();
-    a.pair_force = state.pair_force.data();
-    a.stiffness = stiffness;
-    cloth_contact_args places{};
-    places.size = state.size;
-    places.pos = state.pos.data();
-    places.body_point = state.body_point.data();
-    places.pair_vertex = state.pair_vertex.data();
+    const Args a = bound<Args>(state, params);
+    const cloth_contact_args places = bound<cloth_contact_args>(state, params);
     const int ps = state.size.pair_stride;
     for (int p = 0; p < state.size.pair_count; ++p) {
         vec3 r = make_vec3(0, 0, 0);
@@ -85,12 +74,8 @@ Eigen::MatrixXd differenced_stiffness(const Term& term, State& state, const Para
     const bool contact = term.name == "cloth_contact", repulsion = term.name == "cloth_repulsion";
     if (contact || repulsion) term_force(term, state, params);  // stores the pairs' weights and normals in the state
     const auto force = [&] {
-        if (contact)
-            return force_with_fixed_normals<cloth_contact_force, cloth_contact_args>(state,
-                                                                                     params.cloth_contact.stiffness);
-        if (repulsion)
-            return force_with_fixed_normals<cloth_repulsion_force, cloth_repulsion_args>(
-                state, params.cloth_repulsion.stiffness);
+        if (contact) return force_with_fixed_normals<cloth_contact_force, cloth_contact_args>(state, params);
+        if (repulsion) return force_with_fixed_normals<cloth_repulsion_force, cloth_repulsion_args>(state, params);
         return term_force(term, state, params);
     };
     for (int j = 0; j < int(dofs.size()); ++j) {

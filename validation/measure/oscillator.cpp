@@ -16,7 +16,7 @@ constexpr double spacing = 10, stiffness = 1, stretch = 1.1;  // [m], [N/m], [1]
 ClothModel small_membrane(double drag)
 {
     ClothModel model;
-    model.cloth = flat_rectangle("alternating", 2 * spacing, 2 * spacing, 3);
+    model.cloth = flat_rectangle(MeshFamily::alternating, 2 * spacing, 2 * spacing, 3);
     for (int v = 0; v < 9; ++v) {
         model.cloth.positions[v] *= stretch;
         if (v != middle) model.cloth.pinned.push_back(v);
@@ -48,10 +48,9 @@ Oscillator::Oscillator(std::string_view integrator, double frequency, double dra
     phase_ = std::make_unique<Phase>(model_, options, nullptr, profile_, model_.cloth.positions, std::vector<Vec3>());
     State& state = phase_->state();
     const int z = 2 * state.size.vertex_stride + middle;
-    rest_energy_ = phase_->newton().potential_energy();
+    rest_energy_ = phase_->system().potential_energy();
     state.pos[z] = 1e-5 * spacing;
-    phase_->newton().static_residual();
-    const double spring = -state.force[z] / state.pos[z];
+    const double spring = -phase_->system().static_force()[z] / state.pos[z];
     state.mass[middle] = spring / (frequency * frequency);
     state.inv_mass[middle] = 1 / state.mass[middle];
     if (drag > 0) state.drag[middle] = drag * state.mass[middle];
@@ -73,7 +72,7 @@ double Oscillator::speed() const
 
 double Oscillator::energy()
 {
-    return phase_->newton().potential_energy() - rest_energy_ + phase_->newton().kinetic_energy();
+    return phase_->system().potential_energy() - rest_energy_ + phase_->system().kinetic_energy();
 }
 
 StepFactor fit_step_factor(const std::vector<double>& motion, double dt)

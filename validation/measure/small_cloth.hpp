@@ -4,6 +4,7 @@
 
 #include "host/collision/ccd.hpp"
 #include "host/model/cloth_model.hpp"
+#include "host/solver/state/planes.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/state/topology.hpp"
 #include "host/solver/terms/cloth_state.hpp"
@@ -17,10 +18,10 @@ inline Params unit_strengths()
     Params params;
 #define STRENGTH(name, initial, unit, meaning) values.name = 1;
 #define PARAM(name, initial, unit, meaning)
-#define TERM(term, per, nature, stage) \
-    {                                  \
-        auto& values = params.term;    \
-        term##_PARAMS(STRENGTH, PARAM) \
+#define TERM(term, per, nature, stage, family) \
+    {                                          \
+        auto& values = params.term;            \
+        term##_PARAMS(STRENGTH, PARAM)         \
     }
     TERMS(TERM)
 #undef TERM
@@ -98,7 +99,7 @@ inline PairCorners pair_corners(const State& state, int pair)
         const int v = state.pair_vertex[i * state.size.pair_stride + pair];
         const std::vector<real>& from = v >= 0 ? state.pos : state.body_point;
         const int stride = v >= 0 ? state.size.vertex_stride : state.size.body_point_stride, k = v >= 0 ? v : -1 - v;
-        x[i] = {from[k], from[stride + k], from[2 * stride + k]};
+        x[i] = ConstPlanes{from.data(), stride}(k);
     }
     return x;
 }
@@ -165,20 +166,20 @@ inline State crumpled_state(const Params& params, unsigned seed = 7, bool touche
     State state = make_state(topology, cloth, curved_fabrics(), params, cloth.positions, {});
     std::mt19937 random(seed);
     std::uniform_real_distribution<real> uniform(-1, 1);
-    const int vs = state.size.vertex_stride;
-    for (int v = 0; v < state.size.vertex_count; ++v) {
-        Vec3 normal(uniform(random), uniform(random), uniform(random));
+    const Planes pos = vertex_planes(state.size, state.pos);
+    for (int v = 0; v < pos.count; ++v) {
+        Vec3 normal(uniform(random), uniform(random), uniform(random)), x = pos(v), velocity, anchor;
         normal.normalize();
-        double along = 0;
         for (int c = 0; c < 3; ++c) {
-            state.pos[c * vs + v] += 0.04 * uniform(random);
-            state.vel[c * vs + v] = uniform(random);
-            state.contact_normal[c * vs + v] = normal[c];
-            along += normal[c] * state.pos[c * vs + v];
-            state.friction_anchor[c * vs + v] =
-                state.pos[c * vs + v] + params.friction.stick_distance * uniform(random);
+            x[c] += 0.04 * uniform(random);
+            velocity[c] = uniform(random);
+            anchor[c] = x[c] + params.friction.stick_distance * uniform(random);
         }
-        state.contact_offset[v] = along - params.body_contact.gap * (0.6 + 0.5 * uniform(random));
+        pos.set(v, x);
+        vertex_planes(state.size, state.vel).set(v, velocity);
+        vertex_planes(state.size, state.contact_normal).set(v, normal);
+        vertex_planes(state.size, state.friction_anchor).set(v, anchor);
+        state.contact_offset[v] = normal.dot(x) - params.body_contact.gap * (0.6 + 0.5 * uniform(random));
         state.friction_limit[v] = 1 + uniform(random);
     }
     for (int h = 0; h < state.size.hinge_count; ++h) state.hinge_rest_sine[h] = 0.2 * uniform(random);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "host/mesh/sheet_families.hpp"
+#include "host/solver/state/planes.hpp"
 #include "host/solver/terms/cloth_state.hpp"
 #include "validation/measure/direct_solver.hpp"
 
@@ -47,29 +48,20 @@ Fabric isotropic_fabric(double stiffness, double rigidity, double poisson, doubl
 }
 
 Specimen::Specimen(const Cloth& cloth, const Fabric& fabric, const Params& params, Solve solve)
-    : params_(params),
-      state_(make_state(make_topology(cloth, true), cloth, {{specimen_fabric, fabric}}, params, cloth.positions, {})),
-      linear_(make_solver(state_, solve)),
-      newton_(std::make_unique<Newton>(state_, params_, *linear_, nullptr, nullptr, profile_))
+    : system_(make_state(make_topology(cloth, true), cloth, {{specimen_fabric, fabric}}, params, cloth.positions, {}),
+              params, profile_),
+      linear_(make_solver(system_.state(), solve)), newton_(system_, *linear_)
 {
 }
 
-Vec3 Specimen::position(int vertex) const
-{
-    const int vs = state_.size.vertex_stride;
-    return {state_.pos[vertex], state_.pos[vs + vertex], state_.pos[2 * vs + vertex]};
-}
+Vec3 Specimen::position(int vertex) const { return vertex_planes(state().size, state().pos)(vertex); }
 
 void Specimen::place(int vertex, const Vec3& position)
 {
-    for (int c = 0; c < 3; ++c) state_.pos[c * state_.size.vertex_stride + vertex] = position[c];
+    vertex_planes(state().size, state().pos).set(vertex, position);
 }
 
-Vec3 Specimen::holding_force(int vertex) const
-{
-    const int vs = state_.size.vertex_stride;
-    return -Vec3(state_.force[vertex], state_.force[vs + vertex], state_.force[2 * vs + vertex]);
-}
+Vec3 Specimen::holding_force(int vertex) const { return -vertex_planes(state().size, state().force)(vertex); }
 
 void Specimen::balance(double tolerance)
 {
@@ -78,26 +70,26 @@ void Specimen::balance(double tolerance)
     options.tolerance = 1e-4;
     options.linear_tolerance = 1e-6;
     options.full_stiffness = true;
-    double residual = newton_->static_residual(), dt = 0.01;
+    double residual = system_.residual(), dt = 0.01;
     for (int step = 0; step < 60 && residual > tolerance; ++step) {
-        std::fill(state_.vel.begin(), state_.vel.end(), 0);
-        dt *= newton_->step(dt, options).converged ? 2 : 0.5;
-        residual = newton_->static_residual();
+        std::fill(state().vel.begin(), state().vel.end(), 0);
+        dt *= implicit_euler_step(newton_, dt, options).converged ? 2 : 0.5;
+        residual = system_.residual();
         if (residual > 0.3) continue;
         NewtonOptions last = options;
         last.tolerance = tolerance;
-        residual = newton_->relax(last).residual;
+        residual = newton_.relax(last).residual;
     }
-    newton_->static_residual();  // stores the forces of the final state
+    system_.evaluate_forces(false);  // which hold it
     if (!(residual <= tolerance))
         throw std::runtime_error(fmt::format("no equilibrium: residual {:.2e}, wanted {:.0e}", residual, tolerance));
 }
 
 void Specimen::balance_from_soft(double tolerance)
 {
-    const double full = params_.membrane.scale;
+    const double full = params().membrane.scale;
     for (const double part : {1e-3, 3e-2, 1.0}) {
-        params_.membrane.scale = part * full;
+        params().membrane.scale = part * full;
         balance(part < 1 ? 1e-3 : tolerance);
     }
 }
@@ -112,7 +104,7 @@ ClothPanel one_panel(const Cloth& cloth)
     return panel;
 }
 
-Cloth flat_rectangle(const std::string& family, double width, double height, int columns)
+Cloth flat_rectangle(MeshFamily family, double width, double height, int columns)
 {
     SheetMesh mesh = rectangle_mesh(family, width, height, columns);
     Cloth cloth;
@@ -126,7 +118,7 @@ Cloth flat_rectangle(const std::string& family, double width, double height, int
     return cloth;
 }
 
-Cloth clamped_strip(const std::string& family, double length, double width, int segments)
+Cloth clamped_strip(MeshFamily family, double length, double width, int segments)
 {
     Cloth cloth = flat_rectangle(family, length, width, segments + 1);
     const double step = length / segments;

@@ -6,6 +6,7 @@
 
 #include "host/solver/stepping/newton.hpp"
 #include "host/solver/terms/cloth_state.hpp"
+#include "io/choices.hpp"
 
 namespace selvage {
 
@@ -27,9 +28,10 @@ public:
     /// @param params  strengths of the terms
     Specimen(const Cloth& cloth, const Fabric& fabric, const Params& params, Solve solve = Solve::direct);
 
-    State& state() { return state_; }
-    Params& params() { return params_; }
-    Newton& newton() { return *newton_; }
+    System& system() { return system_; }
+    State& state() { return system_.state(); }
+    const State& state() const { return system_.state(); }
+    Params& params() { return system_.params(); }
 
     Vec3 position(int vertex) const;
     void place(int vertex, const Vec3& position);
@@ -47,22 +49,21 @@ public:
     void balance_from_soft(double tolerance);
 
 private:
-    Params params_;
-    State state_;
-    std::unique_ptr<LinearSolver> linear_;
     Profile profile_;
-    std::unique_ptr<Newton> newton_;
+    System system_;
+    std::unique_ptr<LinearSolver> linear_;
+    Newton newton_;
 };
 
 /// Returns a panel of specimen_fabric that covers the whole cloth.
 ClothPanel one_panel(const Cloth& cloth);
 
 /// A rectangle of one of rectangle_families(), lying in the plane z = 0 from (0, -height/2) to (width, height/2).
-Cloth flat_rectangle(const std::string& family, double width, double height, int columns);
+Cloth flat_rectangle(MeshFamily family, double width, double height, int columns);
 
 /// A strip from x = 0 to `length` that is clamped at x <= 0 by a rigid flap: two held columns of vertices.
 /// @param segments  along the length
-Cloth clamped_strip(const std::string& family, double length, double width, int segments);
+Cloth clamped_strip(MeshFamily family, double length, double width, int segments);
 
 /// Parameters with gravity, the membrane and plate bending.
 Params heavy_plate(const Vec3& gravity);

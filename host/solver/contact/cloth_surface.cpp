@@ -1,9 +1,7 @@
-// What a ClothTree is built over.
+#include "host/solver/contact/cloth_surface.hpp"
+
 #include <algorithm>
 #include <numeric>
-
-#include "host/model/body.hpp"
-#include "host/solver/contact/cloth_contact.hpp"
 
 namespace selvage {
 namespace {

@@ -9,7 +9,9 @@
 namespace selvage {
 namespace {
 
-constexpr int steps_per_look = 4;  // parts of a time whose ways are added up, so that no turn is missed
+// Parts of a step whose displacements are added up, so that a pin that turns and comes back is not taken for one at
+// rest. By hand.
+constexpr int motion_parts = 4;
 
 Vec3 moved(const PinMotion& motion, const Vec3& x, double time)
 {
@@ -41,16 +43,15 @@ Vec3 PinPaths::position(const Pin& pin, double time) const
     return x;
 }
 
-double PinPaths::longest_step(double time, double room, double way) const
+double PinPaths::longest_step(double time, double room, double distance) const
 {
     const auto too_far = [&](double dt) {
         return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) {
             double sum = 0;
-            for (int k = 0; k < steps_per_look; ++k)
-                sum += (position(pin, time + (k + 1) * dt / steps_per_look) -
-                        position(pin, time + k * dt / steps_per_look))
+            for (int k = 0; k < motion_parts; ++k)
+                sum += (position(pin, time + (k + 1) * dt / motion_parts) - position(pin, time + k * dt / motion_parts))
                            .norm();
-            return sum > way;
+            return sum > distance;
         });
     };
     double dt = room;

@@ -13,12 +13,12 @@ public:
     PinPaths(const Cloth& cloth, const Topology& topology);
 
     double end() const { return end_; }  ///< Time after which all of them stand still [s]; 0 if none moves.
-    /// The longest time within `room`, halved as often as needed, in which none moves further than `way` [m].
-    double longest_step(double time, double room, double way) const;
-    /// Puts them where they are at a time. They have no velocity in the state, which keeps what integrators derive
-    /// from it where it is: their place is given, not found.
+    /// The longest time within `room`, halved as often as needed, in which none moves further than `distance` [m].
+    double longest_step(double time, double room, double distance) const;
+    /// Puts them where they are at a time. Their velocities in the state stay zero, so that what integrators predict
+    /// from velocities leaves them there.
     void move_to(State& state, double time) const;
-    /// Where they are at a time, by particle [m].
+    /// Where they are at a time: particle and position [m].
     std::vector<std::pair<int, Vec3>> places(double time) const;
 
 private:

@@ -10,6 +10,7 @@
 #include "host/solver/linear/linear_solver.hpp"
 #include "kernels/stages/assemble_row.h"
 #include "kernels/stages/block_rows.h"
+#include "kernels/stages/vector_rows.h"
 
 namespace selvage {
 namespace {
@@ -50,10 +51,7 @@ struct BlockMatrix {
 
 double dot(const Items& rows, const LinearVector& a, const LinearVector& b)
 {
-    return sum_items(rows, [x = a.data(), y = b.data()](int row) {
-        const int i = 3 * row;
-        return double(x[i]) * double(y[i]) + double(x[i + 1]) * double(y[i + 1]) + double(x[i + 2]) * double(y[i + 2]);
-    });
+    return launch_sum<row_dot>(rows, row_dot_args{a.data(), b.data()});
 }
 
 /// Inverse of the diagonal blocks.

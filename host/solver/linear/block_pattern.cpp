@@ -64,23 +64,23 @@ BlockPattern make_pattern(const State& state)
     return pattern;
 }
 
-Transfer particle_transfer(const Transfer& transfer, const Topology& coarse, const Topology& fine)
+Prolongation particle_prolongation(const Prolongation& prolongation, const Topology& coarse, const Topology& fine)
 {
-    Transfer result;
+    Prolongation result;
     result.offset.assign(1, 0);
     int next = 0;
     for (int v = 0; v < int(fine.particle_of.size()); ++v) {
         if (fine.particle_of[v] != next) continue;  // a sewn vertex whose particle has its row already
         ++next;
-        for (int k = transfer.offset[v]; k < transfer.offset[v + 1]; ++k) {
-            const int column = coarse.particle_of[transfer.column[k]];
+        for (int k = prolongation.offset[v]; k < prolongation.offset[v + 1]; ++k) {
+            const int column = coarse.particle_of[prolongation.column[k]];
             const auto first = result.column.begin() + result.offset.back();
             const auto at = std::find(first, result.column.end(), column);
             if (at != result.column.end()) {
-                result.weight[at - result.column.begin()] += transfer.weight[k];
+                result.weight[at - result.column.begin()] += prolongation.weight[k];
             } else {
                 result.column.push_back(column);
-                result.weight.push_back(transfer.weight[k]);
+                result.weight.push_back(prolongation.weight[k]);
             }
         }
         result.offset.push_back(int(result.column.size()));

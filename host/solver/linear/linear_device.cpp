@@ -9,13 +9,14 @@
 #include "host/solver/state/pair_list.hpp"
 #include "host/solver/terms/terms.hpp"
 #include "kernels/stages/couple_hinges.h"
+#include "kernels/stages/vector_ops.h"
 
 namespace selvage {
 namespace {
 
 class ConjugateGradients final : public LinearSolver {
 public:
-    ConjugateGradients(const State& state, const LinearOptions& options, const ParticleTransfers& transfers)
+    ConjugateGradients(const State& state, const LinearOptions& options, const ParticleProlongations& prolongations)
         : options_(options), pattern_(make_pattern(state)), stride_(state.size.vertex_stride)
     {
         matrix_.row_begin = pattern_.row_begin;
@@ -26,10 +27,10 @@ public:
             moment_.resize(turn_.size());
         }
         for (LinearVector* v : {&x_, &r_, &z_, &p_, &q_}) v->resize(3 * std::size_t(pattern_.rows()));
-        if (options.preconditioner != Preconditioner::multigrid || transfers.empty()) return;
+        if (options.preconditioner != Preconditioner::multigrid || prolongations.empty()) return;
         std::vector<char> pinned(pattern_.rows());
         for (int v = 0; v < pattern_.rows(); ++v) pinned[v] = state.inv_mass[v] == 0;
-        multigrid_.emplace(pattern_, pinned, transfers);
+        multigrid_.emplace(pattern_, pinned, prolongations);
     }
 
     void assemble(const State& state, double inertia, bool solves) override
@@ -70,42 +71,27 @@ public:
 
     void multiply(const double* x, double* y) override
     {
-        const int n = pattern_.rows(), stride = stride_;
-        for_each_item(n, [=, p = p_.data()](int v) {
-            for (int c = 0; c < 3; ++c) p[3 * v + c] = linear(x[c * stride + v]);
-        });
+        launch<row_pack>(pattern_.rows(), row_pack_args{p_.data(), x, stride_, 1});
         multiply(p_, q_);
-        for_each_item(n, [=, q = q_.data()](int v) {
-            for (int c = 0; c < 3; ++c) y[c * stride + v] = double(q[3 * v + c]);
-        });
+        launch<row_unpack>(pattern_.rows(), row_unpack_args{y, q_.data(), stride_, 1});
     }
 
     LinearResult solve(const double* b, double tolerance, double* x, int at_most) override
     {
         LinearResult result;
-        const int n = pattern_.rows(), stride = stride_;
-        const double scale = std::sqrt(sum_items(rows_, [=](int v) {
-            return b[v] * b[v] + b[stride + v] * b[stride + v] + b[2 * stride + v] * b[2 * stride + v];
-        }));
-        for_each_item(rows_, [=, r = r_.data(), y = x_.data()](int v) {
-            for (int c = 0; c < 3; ++c) {
-                r[3 * v + c] = linear(scale > 0 ? b[c * stride + v] / scale : 0);
-                y[3 * v + c] = 0;
-            }
-        });
+        const double scale = std::sqrt(launch_sum<vertex_dot>(rows_, vertex_pair_args{b, b, stride_}));
+        launch<row_pack>(rows_, row_pack_args{r_.data(), b, stride_, scale > 0 ? scale : 1});
+        launch<row_clear>(rows_, row_scale_args{x_.data(), 0});
         result.relative_residual = scale > 0 ? 1 : 0;
         if (scale > 0) iterate(tolerance, std::min(at_most, options_.max_iterations), result);
-        for_each_item(n, [=, y = x_.data()](int v) {
-            for (int c = 0; c < 3; ++c) x[c * stride + v] = scale * double(y[3 * v + c]);
-        });
+        launch<row_unpack>(pattern_.rows(), row_unpack_args{x, x_.data(), stride_, scale});
         return result;
     }
 
     std::size_t bytes() const override
     {
         return matrix_.bytes() + jacobi_.bytes() + (5 * x_.size() + 2 * turn_.size()) * sizeof(linear) +
-               (multigrid_ ? multigrid_->bytes() : 0) +
-               (pattern_.face_place.size() + pattern_.hinge_place.size()) * sizeof(std::uint16_t);
+               (multigrid_ ? multigrid_->bytes() : 0) + pattern_.place_bytes();
     }
 
     void run(LinearOperation operation) override
@@ -178,17 +164,11 @@ private:
     // x += step p, r -= step q.
     void advance(linear step)
     {
-        for_each_item(rows_, [=, x = x_.data(), r = r_.data(), p = p_.data(), q = q_.data()](int row) {
-            for (int i = 3 * row; i < 3 * row + 3; ++i) {
-                x[i] += step * p[i];
-                r[i] -= step * q[i];
-            }
-        });
+        launch<row_advance>(rows_, row_advance_args{x_.data(), r_.data(), p_.data(), q_.data(), step});
     }
 
     void iterate(double tolerance, int at_most, LinearResult& result)
     {
-        linear *z = z_.data(), *p = p_.data();
         precondition();
         p_ = z_;
         double rz = dot(rows_, r_, z_);
@@ -206,11 +186,8 @@ private:
             if (result.relative_residual <= tolerance) return;
             precondition();
             const double next = dot(rows_, r_, z_);
-            const linear turn = linear(next / rz);
+            launch<row_turn>(rows_, row_turn_args{p_.data(), z_.data(), linear(next / rz)});
             rz = next;
-            for_each_item(rows_, [=](int row) {
-                for (int i = 3 * row; i < 3 * row + 3; ++i) p[i] = z[i] + turn * p[i];
-            });
         }
     }
 
@@ -233,9 +210,9 @@ private:
 #define JOIN(a, b) JOIN_EXPANDED(a, b)
 std::unique_ptr<LinearSolver> JOIN(make_linear_solver_, SELVAGE_LINEAR)(const State& state,
                                                                         const LinearOptions& options,
-                                                                        const ParticleTransfers& transfers)
+                                                                        const ParticleProlongations& prolongations)
 {
-    return std::make_unique<ConjugateGradients>(state, options, transfers);
+    return std::make_unique<ConjugateGradients>(state, options, prolongations);
 }
 
 }  // namespace selvage

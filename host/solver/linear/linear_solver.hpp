@@ -16,10 +16,21 @@ struct BlockPattern {
     std::vector<int> row_begin;  ///< Particle count + 1.
     std::vector<int> column;     ///< Sorted within a row.
     /// Per entry of the kind's gather list and corner: the block within the row.
-    std::vector<std::uint16_t> face_place, hinge_place, stitch_place, spring_place;
+#define PLACES(kind, corners) std::vector<std::uint16_t> kind##_place;
+    ELEMENT_KINDS(PLACES)
+#undef PLACES
 
     int rows() const { return int(row_begin.size()) - 1; }
     int blocks() const { return int(column.size()); }
+    /// Returns the bytes of all places.
+    std::size_t place_bytes() const
+    {
+        std::size_t places = 0;
+#define COUNT_PLACES(kind, corners) places += kind##_place.size();
+        ELEMENT_KINDS(COUNT_PLACES)
+#undef COUNT_PLACES
+        return places * sizeof(std::uint16_t);
+    }
 };
 
 /// Finds the pattern from the gather lists of an allocated and filled state.
@@ -41,7 +52,7 @@ struct LinearResult {
 /// The parts of one iteration, to be measured one by one.
 enum class LinearOperation { product, precondition, dot, update };
 
-/// Preconditioned conjugate gradients on 3x3 blocks (D11).
+/// Preconditioned conjugate gradients on 3x3 blocks (Baraff and Witkin 1998).
 class LinearSolver {
 public:
     virtual ~LinearSolver() = default;
@@ -65,16 +76,16 @@ public:
 };
 
 /// Interpolations between particles from the coarse to the next finer level, finest first; may be empty.
-using ParticleTransfers = std::vector<Transfer>;
+using ParticleProlongations = std::vector<Prolongation>;
 
 /// Turns interpolations between cloth vertices into ones between particles.
-Transfer particle_transfer(const Transfer& transfer, const Topology& coarse, const Topology& fine);
+Prolongation particle_prolongation(const Prolongation& prolongation, const Topology& coarse, const Topology& fine);
 
 /// Builds a solver whose matrices and vectors are float.
 std::unique_ptr<LinearSolver> make_linear_solver_float(const State& state, const LinearOptions& options,
-                                                       const ParticleTransfers& transfers);
+                                                       const ParticleProlongations& prolongations);
 /// The same in double.
 std::unique_ptr<LinearSolver> make_linear_solver_double(const State& state, const LinearOptions& options,
-                                                        const ParticleTransfers& transfers);
+                                                        const ParticleProlongations& prolongations);
 
 }  // namespace selvage

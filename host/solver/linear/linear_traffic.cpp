@@ -17,13 +17,14 @@ std::size_t matrix_bytes(const BlockPattern& pattern)
 // Of one vector with three entries per row.
 std::size_t vector_bytes(const BlockPattern& pattern) { return 3 * std::size_t(pattern.rows()) * sizeof(double); }
 
-std::size_t entry_count(const Transfer& transfer)
+std::size_t entry_count(const Prolongation& prolongation)
 {
-    return std::size_t(std::count_if(transfer.weight.begin(), transfer.weight.end(), [](double w) { return w != 0; }));
+    return std::size_t(
+        std::count_if(prolongation.weight.begin(), prolongation.weight.end(), [](double w) { return w != 0; }));
 }
 
 // The pattern of P^T A P.
-BlockPattern coarse_pattern(const BlockPattern& fine, const Transfer& up)
+BlockPattern coarse_pattern(const BlockPattern& fine, const Prolongation& up)
 {
     const int rows = *std::max_element(up.column.begin(), up.column.end()) + 1;
     std::vector<std::vector<int>> down(rows);
@@ -51,15 +52,15 @@ BlockPattern coarse_pattern(const BlockPattern& fine, const Transfer& up)
 
 // Two smoothing steps before and after, the first of which needs no product: b, x, d and the inverse blocks are read,
 // d and the new x written; the residual that goes down; restriction and interpolation.
-std::size_t level_bytes(const BlockPattern& pattern, const Transfer& up, const BlockPattern& coarse)
+std::size_t level_bytes(const BlockPattern& pattern, const Prolongation& up, const BlockPattern& coarse)
 {
     const std::size_t vector = vector_bytes(pattern), matrix = matrix_bytes(pattern);
     const std::size_t smoothing = 3 * (matrix + (3 + 5) * vector) + (3 + 3) * vector;
     const std::size_t residual = matrix + 3 * vector;
     const std::size_t interpolation = entry_count(up) * (sizeof(double) + sizeof(int));
     const std::size_t lists = (pattern.row_begin.size() + coarse.row_begin.size()) * sizeof(int);
-    const std::size_t transfers = 2 * interpolation + lists + (1 + 2) * vector + 2 * vector_bytes(coarse);
-    return smoothing + residual + transfers;
+    const std::size_t prolongations = 2 * interpolation + lists + (1 + 2) * vector + 2 * vector_bytes(coarse);
+    return smoothing + residual + prolongations;
 }
 
 }  // namespace
@@ -67,9 +68,8 @@ std::size_t level_bytes(const BlockPattern& pattern, const Transfer& up, const B
 std::size_t assemble_bytes(const State& state, const BlockPattern& pattern)
 {
     const std::size_t diagonal = 9 * std::size_t(pattern.rows()) * sizeof(double);
-    const std::size_t places = pattern.face_place.size() + pattern.hinge_place.size() + pattern.stitch_place.size();
     return clear_stiffness_bytes(state) + gather_list_bytes(state) + pass_bytes(state, {Field::mass, Field::inv_mass}) +
-           places * sizeof(std::uint16_t) + matrix_bytes(pattern) + 2 * diagonal;
+           pattern.place_bytes() + matrix_bytes(pattern) + 2 * diagonal;
 }
 
 std::size_t product_bytes(const State& state, const BlockPattern& pattern)
@@ -101,14 +101,14 @@ std::size_t dot_bytes(const BlockPattern& pattern) { return 2 * vector_bytes(pat
 
 std::size_t update_bytes(const BlockPattern& pattern) { return 6 * vector_bytes(pattern); }
 
-std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleTransfers& transfers)
+std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleProlongations& prolongations)
 {
-    if (transfers.empty()) return block_jacobi_bytes(finest);
+    if (prolongations.empty()) return block_jacobi_bytes(finest);
     std::size_t total = 0;
     BlockPattern fine = finest;
-    for (const Transfer& transfer : transfers) {
-        BlockPattern coarse = coarse_pattern(fine, transfer);
-        total += level_bytes(fine, transfer, coarse);
+    for (const Prolongation& prolongation : prolongations) {
+        BlockPattern coarse = coarse_pattern(fine, prolongation);
+        total += level_bytes(fine, prolongation, coarse);
         fine = std::move(coarse);
     }
     // The two triangular solves of the coarsest level read half of a dense matrix each.

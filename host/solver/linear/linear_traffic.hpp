@@ -16,6 +16,6 @@ std::size_t block_jacobi_bytes(const BlockPattern& pattern);
 std::size_t dot_bytes(const BlockPattern& pattern);
 std::size_t update_bytes(const BlockPattern& pattern);  ///< Of x += a p, r -= a q.
 /// Of one V-cycle: all passes of Multigrid::cycle over all levels, the coarse patterns being those of P^T A P.
-std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleTransfers& transfers);
+std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleProlongations& prolongations);
 
 }  // namespace selvage

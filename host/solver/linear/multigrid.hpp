@@ -18,7 +18,7 @@ class Multigrid {
 public:
     /// @param finest  pattern of the finest matrix
     /// @param pinned  per particle of the finest level: 1 if it is held, so that coarse levels leave it alone
-    Multigrid(const BlockPattern& finest, const std::vector<char>& pinned, const ParticleTransfers& transfers);
+    Multigrid(const BlockPattern& finest, const std::vector<char>& pinned, const ParticleProlongations& prolongations);
 
     /// Computes all coarse matrices and smoothers.
     /// @param rows      of the finest level that take part; the others are left alone as if they were pinned
@@ -39,14 +39,14 @@ private:
         std::vector<char> is_awake;     // per row, and their list; empty where all take part
         std::vector<int> awake;
         // Interpolation from the next coarser level, and its transpose.
-        std::vector<int> up_begin, up_column, down_begin, down_row;
-        std::vector<linear> up_weight, down_weight;
+        std::vector<int> prolong_begin, prolong_column, restrict_begin, restrict_row;
+        std::vector<linear> prolong_weight, restrict_weight;
         // For each coarse row, the coarse block to which each product term of P^T A P adds, in order.
         std::vector<std::size_t> plan_begin;
         std::vector<int> plan;
     };
 
-    void connect(Level& fine, const Transfer& transfer, const std::vector<char>* pinned, int coarse_rows);
+    void connect(Level& fine, const Prolongation& prolongation, const std::vector<char>* pinned, int coarse_rows);
     void plan_product(const std::vector<int>& row_begin, const std::vector<int>& column, Level& fine,
                       BlockMatrix& coarse);
     void select_rows(const Items& rows, const std::vector<char>& is_awake);
@@ -66,15 +66,17 @@ private:
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> coarsest_;
 };
 
-Multigrid::Multigrid(const BlockPattern& finest, const std::vector<char>& pinned, const ParticleTransfers& transfers)
+Multigrid::Multigrid(const BlockPattern& finest, const std::vector<char>& pinned,
+                     const ParticleProlongations& prolongations)
 {
-    levels_.resize(transfers.size() + 1);
+    levels_.resize(prolongations.size() + 1);
     for (std::size_t l = 0; l < levels_.size(); ++l) levels_[l].name = "level_" + std::to_string(l);
-    for (std::size_t l = 0; l < transfers.size(); ++l) {
-        const int coarse_rows = transfers[l].column.empty()
-                                    ? 0
-                                    : *std::max_element(transfers[l].column.begin(), transfers[l].column.end()) + 1;
-        connect(levels_[l], transfers[l], l == 0 ? &pinned : nullptr, coarse_rows);
+    for (std::size_t l = 0; l < prolongations.size(); ++l) {
+        const int coarse_rows =
+            prolongations[l].column.empty()
+                ? 0
+                : *std::max_element(prolongations[l].column.begin(), prolongations[l].column.end()) + 1;
+        connect(levels_[l], prolongations[l], l == 0 ? &pinned : nullptr, coarse_rows);
         plan_product(l == 0 ? finest.row_begin : levels_[l].matrix.row_begin,
                      l == 0 ? finest.column : levels_[l].matrix.column, levels_[l], levels_[l + 1].matrix);
     }
@@ -85,40 +87,41 @@ Multigrid::Multigrid(const BlockPattern& finest, const std::vector<char>& pinned
     }
 }
 
-void Multigrid::connect(Level& fine, const Transfer& transfer, const std::vector<char>* pinned, int coarse_rows)
+void Multigrid::connect(Level& fine, const Prolongation& prolongation, const std::vector<char>* pinned, int coarse_rows)
 {
     std::vector<std::vector<std::pair<int, linear>>> down(coarse_rows);
-    fine.up_begin.assign(1, 0);
-    for (int row = 0; row + 1 < int(transfer.offset.size()); ++row) {
-        for (int k = transfer.offset[row]; k < transfer.offset[row + 1]; ++k) {
-            if ((pinned && (*pinned)[row]) || transfer.weight[k] == 0) continue;
-            fine.up_column.push_back(transfer.column[k]);
-            fine.up_weight.push_back(linear(transfer.weight[k]));
-            down[transfer.column[k]].push_back({row, linear(transfer.weight[k])});
+    fine.prolong_begin.assign(1, 0);
+    for (int row = 0; row + 1 < int(prolongation.offset.size()); ++row) {
+        for (int k = prolongation.offset[row]; k < prolongation.offset[row + 1]; ++k) {
+            if ((pinned && (*pinned)[row]) || prolongation.weight[k] == 0) continue;
+            fine.prolong_column.push_back(prolongation.column[k]);
+            fine.prolong_weight.push_back(linear(prolongation.weight[k]));
+            down[prolongation.column[k]].push_back({row, linear(prolongation.weight[k])});
         }
-        fine.up_begin.push_back(int(fine.up_column.size()));
+        fine.prolong_begin.push_back(int(fine.prolong_column.size()));
     }
-    fine.down_begin.assign(1, 0);
+    fine.restrict_begin.assign(1, 0);
     for (const auto& row : down) {
         for (const auto& [fine_row, weight] : row) {
-            fine.down_row.push_back(fine_row);
-            fine.down_weight.push_back(weight);
+            fine.restrict_row.push_back(fine_row);
+            fine.restrict_weight.push_back(weight);
         }
-        fine.down_begin.push_back(int(fine.down_row.size()));
+        fine.restrict_begin.push_back(int(fine.restrict_row.size()));
     }
 }
 
 void Multigrid::plan_product(const std::vector<int>& row_begin, const std::vector<int>& column, Level& fine,
                              BlockMatrix& coarse)
 {
-    const int coarse_rows = int(fine.down_begin.size()) - 1;
+    const int coarse_rows = int(fine.restrict_begin.size()) - 1;
     std::vector<int> mark(coarse_rows, -1), own;
     coarse.row_begin.assign(1, 0);
     fine.plan_begin.assign(1, 0);
     const auto visit = [&](int row, const auto& action) {
-        for (int q = fine.down_begin[row]; q < fine.down_begin[row + 1]; ++q)
-            for (int k = row_begin[fine.down_row[q]]; k < row_begin[fine.down_row[q] + 1]; ++k)
-                for (int p = fine.up_begin[column[k]]; p < fine.up_begin[column[k] + 1]; ++p) action(fine.up_column[p]);
+        for (int q = fine.restrict_begin[row]; q < fine.restrict_begin[row + 1]; ++q)
+            for (int k = row_begin[fine.restrict_row[q]]; k < row_begin[fine.restrict_row[q] + 1]; ++k)
+                for (int p = fine.prolong_begin[column[k]]; p < fine.prolong_begin[column[k] + 1]; ++p)
+                    action(fine.prolong_column[p]);
     };
     for (int row = 0; row < coarse_rows; ++row) {
         own.assign(1, row);  // a coarse vertex that carries nothing still needs its diagonal
@@ -158,8 +161,8 @@ void Multigrid::select_rows(const Items& rows, const std::vector<char>& is_awake
         const Level& fine = levels_[l - 1];
         level.is_awake.resize(std::size_t(count));
         for (int row = 0; row < count; ++row) {
-            for (int k = fine.down_begin[row]; k < fine.down_begin[row + 1] && !level.is_awake[row]; ++k)
-                level.is_awake[row] = fine.is_awake[fine.down_row[k]];
+            for (int k = fine.restrict_begin[row]; k < fine.restrict_begin[row + 1] && !level.is_awake[row]; ++k)
+                level.is_awake[row] = fine.is_awake[fine.restrict_row[k]];
             if (level.is_awake[row]) level.awake.push_back(row);
         }
         level.rows = {int(level.awake.size()), level.awake.data()};
@@ -178,18 +181,18 @@ void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, const Lev
             return;
         }
         std::size_t term = fine.plan_begin[row];
-        for (int q = fine.down_begin[row]; q < fine.down_begin[row + 1]; ++q) {
-            const int i = fine.down_row[q];
+        for (int q = fine.restrict_begin[row]; q < fine.restrict_begin[row + 1]; ++q) {
+            const int i = fine.restrict_row[q];
             for (int k = a.row_begin[i]; k < a.row_begin[i + 1]; ++k) {
                 const linear* from = a.block.data() + 9 * std::size_t(k);
                 const int j = a.column[k];
                 if (!fine.is_awake.empty() && !(fine.is_awake[i] && fine.is_awake[j])) {
-                    term += std::size_t(fine.up_begin[j + 1] - fine.up_begin[j]);
+                    term += std::size_t(fine.prolong_begin[j + 1] - fine.prolong_begin[j]);
                     continue;
                 }
-                for (int p = fine.up_begin[j]; p < fine.up_begin[j + 1]; ++p) {
+                for (int p = fine.prolong_begin[j]; p < fine.prolong_begin[j + 1]; ++p) {
                     linear* to = coarse.block.data() + 9 * std::size_t(fine.plan[term++]);
-                    const linear weight = fine.down_weight[q] * fine.up_weight[p];
+                    const linear weight = fine.restrict_weight[q] * fine.prolong_weight[p];
                     for (int c = 0; c < 9; ++c) to[c] += weight * from[c];
                 }
             }
@@ -233,9 +236,7 @@ void Multigrid::estimate_eigenvalue(const BlockMatrix& matrix, Level& level)
     double growth = 1;
     for (int round = 0; round < 7; ++round) {
         const double size = std::sqrt(dot(level.rows, level.x, level.x));
-        for_each_item(level.rows, [v = level.x.data(), s = linear(1 / size)](int row) {
-            for (int i = 3 * row; i < 3 * row + 3; ++i) v[i] *= s;
-        });
+        launch<row_scale>(level.rows, row_scale_args{level.x.data(), linear(1 / size)});
         matrix.multiply(level.rows, level.x, level.next);
         level.jacobi.apply(level.rows, level.next, level.x);
         growth = std::sqrt(dot(level.rows, level.x, level.x));
@@ -311,17 +312,12 @@ void Multigrid::cycle(const BlockMatrix& matrix, std::size_t at, const linear* b
     Level& coarse = levels_[at + 1];
     smooth(matrix, level, b, true);
     launch<block_row_residual>(level.rows, pass(matrix, level, b));
-    for_each_item(coarse.rows, [&level, from = level.next.data(), to = coarse.b.data()](int row) {
-        linear sum[3] = {0, 0, 0};
-        for (int k = level.down_begin[row]; k < level.down_begin[row + 1]; ++k)
-            for (int c = 0; c < 3; ++c) sum[c] += level.down_weight[k] * from[3 * level.down_row[k] + c];
-        for (int c = 0; c < 3; ++c) to[3 * row + c] = sum[c];
-    });
+    launch<row_restrict>(coarse.rows,
+                         row_transfer_args{level.restrict_begin.data(), level.restrict_row.data(),
+                                           level.restrict_weight.data(), level.next.data(), coarse.b.data()});
     cycle(coarse.matrix, at + 1, coarse.b.data());
-    for_each_item(level.rows, [&level, from = coarse.x.data()](int row) {
-        for (int k = level.up_begin[row]; k < level.up_begin[row + 1]; ++k)
-            for (int c = 0; c < 3; ++c) level.x[3 * row + c] += level.up_weight[k] * from[3 * level.up_column[k] + c];
-    });
+    launch<row_prolong>(level.rows, row_transfer_args{level.prolong_begin.data(), level.prolong_column.data(),
+                                                      level.prolong_weight.data(), coarse.x.data(), level.x.data()});
     smooth(matrix, level, b, false, result);
 }
 
@@ -336,7 +332,7 @@ std::size_t Multigrid::bytes() const
     std::size_t total = 0;
     for (const Level& level : levels_)
         total += level.matrix.bytes() + level.jacobi.bytes() + 4 * level.x.size() * sizeof(linear) +
-                 (level.up_column.size() + level.down_row.size()) * (sizeof(int) + sizeof(linear)) +
+                 (level.prolong_column.size() + level.restrict_row.size()) * (sizeof(int) + sizeof(linear)) +
                  level.plan.size() * sizeof(int) + level.plan_begin.size() * sizeof(std::size_t);
     return total;
 }

@@ -7,6 +7,7 @@
 #include "host/model/cloth_model.hpp"
 #include "host/parallel/launch.hpp"
 #include "host/solver/state/materials.hpp"
+#include "host/solver/state/planes.hpp"
 #include "host/solver/state/springs.hpp"
 
 namespace selvage {
@@ -134,7 +135,7 @@ std::array<double, 4> face_rest_weights(const Cloth& cloth, int face)
 void place_particles(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,
                      const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
 {
-    const int vs = state.size.vertex_stride, n = state.size.vertex_count;
+    const Planes x = vertex_planes(state.size, state.pos), u = vertex_planes(state.size, state.vel);
     const PanelFabrics table = panel_fabrics(cloth, fabrics);
     std::fill(state.pos.begin(), state.pos.end(), 0);
     std::fill(state.vel.begin(), state.vel.end(), 0);
@@ -146,19 +147,15 @@ void place_particles(State& state, const Topology& topology, const Cloth& cloth,
     for (int v = 0; v < int(positions.size()); ++v) {
         const int p = topology.particle_of[v];
         const double weight = share[v] / state.mass[p];
-        for (int c = 0; c < 3; ++c) {
-            state.pos[c * vs + p] += weight * positions[v][c];
-            if (!velocities.empty()) state.vel[c * vs + p] += weight * velocities[v][c];
-        }
+        x.set(p, x(p) + weight * positions[v]);
+        if (!velocities.empty()) u.set(p, u(p) + weight * velocities[v]);
     }
-    for (int p = 0; p < n; ++p) state.inv_mass[p] = 1 / state.mass[p];
+    for (int p = 0; p < x.count; ++p) state.inv_mass[p] = 1 / state.mass[p];
     for (int v : cloth.pinned) {
         const int p = topology.particle_of[v];
         state.inv_mass[p] = 0;
-        for (int c = 0; c < 3; ++c) {
-            state.pos[c * vs + p] = positions[v][c];
-            state.vel[c * vs + p] = 0;
-        }
+        x.set(p, positions[v]);
+        u.set(p, Vec3::Zero());
     }
 }
 
@@ -186,10 +183,9 @@ void fill_state(State& state, const Topology& topology, const Cloth& cloth, cons
 std::vector<Vec3> cloth_vectors(const Topology& topology, const mesh_sizes& size, const std::vector<real>& field)
 {
     std::vector<Vec3> vectors(topology.particle_of.size());
-    const int vs = size.vertex_stride;
-    for_each_item(int(vectors.size()), [&, to = vectors.data()](int v) {
-        const int p = topology.particle_of[v];
-        to[v] = Vec3(field[p], field[vs + p], field[2 * vs + p]);
+    const ConstPlanes planes = vertex_planes(size, field);
+    for_each_item(int(vectors.size()), [planes, to = vectors.data(), particle = topology.particle_of.data()](int v) {
+        to[v] = planes(particle[v]);
     });
     return vectors;
 }

@@ -10,7 +10,7 @@ namespace selvage {
 
 /// Puts the particles of a filled state where the cloth is; pinned ones are at rest.
 /// Positions are set to the mass-weighted mean of the cloth vertices of each particle, velocities likewise, so that
-/// joining keeps the centre of mass and the momentum (B12).
+/// joining keeps the centre of mass and the momentum.
 /// @param positions   per cloth vertex [m]
 /// @param velocities  per cloth vertex [m/s]; empty: at rest
 void place_particles(State& state, const Topology& topology, const Cloth& cloth, const FabricTable& fabrics,

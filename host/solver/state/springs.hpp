@@ -19,8 +19,8 @@ constexpr double bend_spring_curvature = 50;
 
 /// Puts the springs of a cloth into its topology.
 ///
-/// Membrane (B9, E1). A spring of constant k and length l along the unit vector t = (a, b) in a face of area A has, per
-/// area, the energy c/2 (t.e.t)^2 with c = k l^2 / A at small strain e, so springs show the moduli
+/// Membrane (after Provot 1995). A spring of constant k and length l along the unit vector t = (a, b) in a face of area
+/// A has, per area, the energy c/2 (t.e.t)^2 with c = k l^2 / A at small strain e, so springs show the moduli
 ///     C_uu = sum c a^4,   C_vv = sum c b^4,   C_s = sum c a^2 b^2,
 /// and the two that mix tension and shear, sum c a^3 b and sum c a b^3. The shear modulus C_s is also the coupling of
 /// weft and warp (Cauchy's relation), whatever the fabric says. Each face chooses its c >= 0 so that these are ku, kv,

@@ -9,152 +9,123 @@
 namespace selvage {
 namespace {
 
-constexpr int relax_chunk = 5;  // static iterations between two looks at interrupts and limits
-constexpr int relax_chunks = 12;
-constexpr double first_load = 0.05;   // part of the weight at the first of several load steps
-constexpr int steps_between = 8;      // motion after a static attempt that did not reach the tolerance
-constexpr double too_early = 0.05;    // residual above which an attempt must not meet negative curvature all the time
-constexpr int patience = 25;          // motion after which one is made again although the forces do not fall further
-constexpr double stride = 2;          // steps towards rest, of those of a motion: only where they lead counts
-constexpr double swing_stride = 1.5;  // the same while the cloth swings
-
-// What a static attempt that is interrupted gives back, so that a resumed run repeats it from its start.
-struct SavedShape {
-    std::vector<real> pos, vel, anchor, limit, hinge_anchor, pairs;
-};
-
-SavedShape shape_of(const Phase& phase)
-{
-    const State& s = phase.state();
-    const ClothContact* cloth = phase.cloth_contact();
-    return {s.pos,
-            s.vel,
-            s.friction_anchor,
-            s.friction_limit,
-            s.hinge_anchor,
-            cloth ? cloth->memory() : std::vector<real>{}};
-}
-
-void restore(Phase& phase, const SavedShape& saved)
-{
-    State& state = phase.state();
-    if (phase.cloth_contact()) phase.cloth_contact()->memory() = saved.pairs;
-    state.pos = saved.pos;
-    state.vel = saved.vel;
-    state.friction_anchor = saved.anchor;
-    state.friction_limit = saved.limit;
-    state.hinge_anchor = saved.hinge_anchor;
-}
+constexpr RestTuning tuning;
+constexpr std::string_view hurrying_integrator = "implicit_euler";
 
 // Minimises the static energy. It never rises, so an attempt that falls short still leaves the cloth nearer to rest.
-// @param swung  BDF2 has led here: it leads past saddles, so that an attempt which finds only such at first is given up
-PhaseEnd relax(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress, const AfterStep& after_step,
-               bool swung)
+// @param swung  the cloth has swung on its way here: that leads past saddles, so that an attempt which finds only such
+//               at first is given up
+PhaseEnd minimise_statics(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
+                          const AfterStep& after_step, bool swung)
 {
     NewtonOptions newton;
-    newton.max_iterations = relax_chunk;
+    newton.max_iterations = tuning.chunk;
     newton.tolerance = options.tolerance;
-    newton.linear_tolerance = 0.02;
+    newton.linear_tolerance = tuning.linear_tolerance;
     newton.full_stiffness = true;
     newton.stop = &options.stop;
-    const SavedShape start = shape_of(phase);
+    System& system = phase.system();
+    SolverSnapshot start;  // a resumed run repeats an attempt that is interrupted from its start
+    keep(system, nullptr, start);
     const double began = progress.residual;
     double best = 1e300;
-    for (int chunk = 0; chunk < relax_chunks; ++chunk) {
+    for (int chunk = 0; chunk < tuning.chunks; ++chunk) {
         const NewtonReport report = phase.newton().relax(newton);
         if (report.broken_off ||
-            !after_step({progress.time, 0, report.iterations, report.linear_iterations, report.residual})) {
-            restore(phase, start);
+            !after_step({system.clock().time, 0, report.iterations, report.linear_iterations, report.residual})) {
+            restore(system, nullptr, start);
             return PhaseEnd::stopped;
         }
         if (report.converged) return PhaseEnd::reached;
-        const bool buckles = report.blind == report.iterations && report.iterations > 0;  // inertia has to lead it on
-        const bool unstable = swung && chunk == 0 && report.negative == report.iterations && began > too_early;
+        const bool buckles = report.indefinite == report.iterations && report.iterations > 0;  // it needs inertia
+        const bool unstable =
+            swung && chunk == 0 && report.negative_curvature == report.iterations && began > tuning.too_early;
         const bool ends = report.stuck || buckles || unstable;
-        if (chunk + 1 == relax_chunks || ends) progress.residual = report.residual;
-        if (ends || (chunk > 3 && report.residual > 0.8 * best)) return PhaseEnd::time_limit;
+        if (chunk + 1 == tuning.chunks || ends) progress.residual = report.residual;
+        const bool stalls = chunk >= tuning.patient_chunks && report.residual > tuning.headway * best;
+        if (ends || stalls) return PhaseEnd::time_limit;
         best = std::min(best, report.residual);
     }
     return PhaseEnd::time_limit;
 }
 
-bool nearly_balanced(const Phase& phase, const EquilibriumOptions& options, const DrapeProgress& progress)
+bool nearly_balanced(const System& system, const EquilibriumOptions& options, const DrapeProgress& progress)
 {
-    if (progress.time < phase.motion_end()) return false;
+    if (system.clock().time < system.motion_end()) return false;
     if (progress.residual <= options.tolerance) return true;
-    const bool creeps = progress.hold <= -patience && progress.residual <= DrapeProgress{}.switch_residual;
-    return creeps || (progress.hold <= 0 && progress.residual <= progress.switch_residual);
+    const bool stalls = progress.hold <= -tuning.stall_limit && progress.residual <= tuning.first_residual;
+    return stalls || (progress.hold <= 0 && progress.residual <= progress.switch_residual);
 }
 
 // The integrator of the options, or one that is made here.
 Integrator& chosen(const EquilibriumOptions& options, Phase& phase, std::unique_ptr<Integrator>& own)
 {
     if (options.integrator) return *options.integrator;
-    own = make_integrator("implicit_euler", phase);
+    own = make_integrator(hurrying_integrator, phase);
     return *own;
 }
 
-StepOptions starting_at(double time, StepOptions options)
+StepOptions with_boundary(StepOptions options)
 {
-    options.start = time;
+    options.moves_boundary = true;
     return options;
 }
 
-StepEvent event_of(const StepControl& control, const DrapeProgress& progress)
+StepEvent event_of(const StepControl& control, const System& system, double residual)
 {
-    return {progress.time,     control.taken(),       control.report().iterations, control.report().linear_iterations,
-            progress.residual, control.stable_step(), control.shortest()};
+    const NewtonReport& report = control.report();
+    return {system.clock().time,
+            control.taken(),
+            report.iterations,
+            report.linear_iterations,
+            residual,
+            control.stable_step(),
+            control.shortest(),
+            control.integrator().info().name};
 }
 
-// Whether a step may be left unsolved: what an iteration leaves over, a damped scheme of first order makes up for
-// later. Friction remembers the way, though: who lets the weight grow in steps asks for a way that is followed.
-bool may_hurry(const Integrator& integrator, const EquilibriumOptions& options)
+void wake_all(System& system, DrapeProgress& progress)
 {
-    return options.hurries && !integrator.info().is_explicit && integrator.info().order <= 2 &&
-           !options.step.adaptive && options.load_steps == 1;
-}
-
-void wake_all(Phase& phase, DrapeProgress& progress)
-{
-    if (progress.asleep > 0) wake(phase);
+    if (progress.asleep > 0) wake(system);
     progress.asleep = 0;
 }
 
 // Whether all is at rest where what is awake is.
-PhaseEnd rest_of_all(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress)
+PhaseEnd rest_of_all(System& system, const EquilibriumOptions& options, DrapeProgress& progress)
 {
-    wake_all(phase, progress);
-    progress.residual = phase.newton().static_residual();
+    wake_all(system, progress);
+    system.refresh_pairs();
+    progress.residual = system.residual();
     return progress.residual <= options.tolerance ? PhaseEnd::reached : PhaseEnd::time_limit;
 }
 
-// The way to rest under the present weight.
+// The way to rest under the present weight: a motion in one of the modes, and static attempts in between.
 class WayToRest {
 public:
     WayToRest(Phase& phase, Integrator& integrator, const EquilibriumOptions& options, DrapeProgress& progress,
               const AfterStep& after_step)
-        : phase_(phase), integrator_(integrator), options_(options), progress_(progress), after_step_(after_step),
-          hurries_(may_hurry(integrator, options)), swings_first_(hurries_ && integrator.info().order > 1)
+        : phase_(phase), system_(phase.system()), integrator_(integrator), options_(options), progress_(progress),
+          after_step_(after_step), first_mode_(first_mode(integrator.info(), options))
     {
         newton_.stop = &options.stop;
-        newton_.tolerance = 0.3 * options.tolerance;  // a looser one would let a step do nothing near the end
-        choose_steps();
+        newton_.tolerance = tuning.step_tolerance * options.tolerance;
+        enter_mode();
         if (progress.dt > 0) control_->set_dt(progress.dt);
     }
 
     PhaseEnd go()
     {
         for (;;) {
-            if (nearly_balanced(phase_, options_, progress_)) {
+            if (nearly_balanced(system_, options_, progress_)) {
                 if (options_.only_balances) {
-                    wake_all(phase_, progress_);
+                    wake_all(system_, progress_);
                     return PhaseEnd::reached;
                 }
                 const std::optional<PhaseEnd> end = try_statics();
                 if (end) return *end;
             }
-            if (progress_.time >= options_.max_time) {
-                wake_all(phase_, progress_);
+            if (system_.clock().time >= options_.max_time) {
+                wake_all(system_, progress_);
                 return PhaseEnd::time_limit;
             }
             if (!step()) return PhaseEnd::stopped;
@@ -162,72 +133,95 @@ public:
     }
 
 private:
-    // Cloth that falls and swings is followed until its forces first nearly balance. Hurried steps are so stiff that
-    // they would creep where momentum carries the cloth on, and end in higher folds.
-    bool swings() const { return swings_first_ && progress_.switch_residual >= DrapeProgress{}.switch_residual; }
-
-    void choose_steps()
+    // The mode that the progress stands for: a run that is resumed finds it again. Swinging ends when the first static
+    // attempt fails, which lowers the residual that the next one waits for.
+    RestMode mode_now() const
     {
-        StepOptions steps = starting_at(progress_.time, options_.step);
-        const bool hurries = hurries_ && !swings();
-        if (hurries_) steps.longest *= hurries ? stride : swing_stride;
-        if (hurries && swings_first_) hurried_ = make_integrator("implicit_euler", phase_);
-        control_.emplace(phase_, hurried_ ? *hurried_ : integrator_, steps);
+        const bool failed = progress_.switch_residual < tuning.first_residual;
+        return first_mode_ == RestMode::swing && failed ? RestMode::hurry : first_mode_;
+    }
+
+    void enter_mode()
+    {
+        mode_ = mode_now();
+        StepOptions steps = with_boundary(options_.step);
+        if (mode_ == RestMode::swing) steps.longest *= tuning.swing_factor;
+        if (mode_ == RestMode::hurry) steps.longest *= tuning.hurry_factor;
+        if (mode_ != first_mode_) successor_ = make_integrator(hurrying_integrator, phase_);
+        control_.emplace(phase_, successor_ ? *successor_ : integrator_, steps);
         longest_ = steps.longest;
     }
 
     // Returns how the way ends, if it does.
     std::optional<PhaseEnd> try_statics()
     {
-        const bool was_part = progress_.asleep > 0, swung = swings();
-        PhaseEnd end = relax(phase_, options_, progress_, after_step_, swings_first_);
+        const bool was_part = progress_.asleep > 0;
+        PhaseEnd end = minimise_statics(phase_, options_, progress_, after_step_, first_mode_ == RestMode::swing);
         if (end == PhaseEnd::stopped) return end;
-        if (was_part && end == PhaseEnd::reached) end = rest_of_all(phase_, options_, progress_);
-        wake_all(phase_, progress_);
+        if (was_part && end == PhaseEnd::reached) end = rest_of_all(system_, options_, progress_);
+        wake_all(system_, progress_);
         if (end == PhaseEnd::reached) return end;
         integrator_.restart();
-        if (was_part && progress_.residual <= 10 * options_.tolerance) return {};  // the rest is near its place
-        progress_.switch_residual = std::max(0.5 * progress_.switch_residual, 2 * options_.tolerance);
-        progress_.hold = steps_between;
-        if (swung) {
+        if (was_part && progress_.residual <= tuning.near_rest * options_.tolerance) return {};
+        progress_.switch_residual =
+            std::max(tuning.less_residual * progress_.switch_residual, tuning.least_residual * options_.tolerance);
+        progress_.hold = tuning.steps_between;
+        if (mode_ == RestMode::swing) {
             progress_.dt = 0;
-            choose_steps();
+            enter_mode();
         }
         return {};
     }
 
     bool step()
     {
-        const bool follows = progress_.time < phase_.motion_end();  // bodies or pins, whose way counts
-        const bool hurries = hurries_ && !follows && !swings();
-        newton_.max_iterations = std::min(options_.newton_iterations, hurries ? 1 : 3);
-        progress_.time += control_->advance(follows ? options_.step.longest : longest_, newton_, false);
+        const bool boundary_moves = system_.clock().time < system_.motion_end();  // and where it leads counts
+        const bool hurries = mode_ == RestMode::hurry && !boundary_moves;
+        newton_.max_iterations =
+            std::min(options_.newton_iterations, hurries ? tuning.hurry_iterations : tuning.most_iterations);
+        control_->advance(boundary_moves ? options_.step.longest : longest_, newton_, false);
         if (control_->report().broken_off) return false;
         progress_.dt = control_->dt();
-        progress_.residual = phase_.newton().static_residual();
-        if (hurries_ && !follows && options_.sleeps) {
+        system_.refresh_pairs();
+        const std::vector<real>& force = system_.static_force();
+        progress_.residual = system_.residual_of(force);
+        if (first_mode_ != RestMode::follow && !boundary_moves && options_.sleeps) {
             const bool all_awake = progress_.asleep == 0;
-            rest_in_places(phase_, progress_.asleep);
+            rest_in_places(system_, force, progress_.asleep);
             if (all_awake && progress_.asleep > 0) integrator_.displaced();  // what sleeps has stopped
         }
         --progress_.hold;
-        return after_step_(event_of(*control_, progress_));
+        return after_step_(event_of(*control_, system_, progress_.residual));
     }
 
     Phase& phase_;
+    System& system_;
     Integrator& integrator_;
     const EquilibriumOptions& options_;
     DrapeProgress& progress_;
     const AfterStep& after_step_;
-    const bool hurries_;       // sooner or later
-    const bool swings_first_;  // with a scheme of second order, which implicit Euler then takes over from
+    const RestMode first_mode_;
+    RestMode mode_ = RestMode::follow;
     NewtonOptions newton_;
-    std::unique_ptr<Integrator> hurried_;  // implicit Euler, once it has taken over
+    std::unique_ptr<Integrator> successor_;  // once it has taken over
     std::optional<StepControl> control_;
     double longest_ = 0;
 };
 
 }  // namespace
+
+RestMode first_mode(const IntegratorInfo& chosen, const EquilibriumOptions& options)
+{
+    const bool hurries = options.hurries && !chosen.is_explicit && chosen.order <= 2 && !options.step.adaptive &&
+                         options.load_steps == 1;
+    if (!hurries) return RestMode::follow;
+    return chosen.order > 1 ? RestMode::swing : RestMode::hurry;
+}
+
+std::string_view successor(const IntegratorInfo& chosen, const EquilibriumOptions& options)
+{
+    return first_mode(chosen, options) == RestMode::swing ? hurrying_integrator : std::string_view();
+}
 
 PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, DrapeProgress& progress,
                               const AfterStep& after_step)
@@ -235,7 +229,7 @@ PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, D
     std::unique_ptr<Integrator> own;
     Integrator& integrator = chosen(options, phase, own);
     const auto whole = phase.params().gravity;
-    const double first = std::log(first_load);
+    const double first = std::log(tuning.first_load);
     PhaseEnd end = PhaseEnd::reached;
     while (progress.load < options.load_steps && end == PhaseEnd::reached) {
         const int left = options.load_steps - 1 - progress.load;
@@ -245,8 +239,7 @@ PhaseEnd drape_to_equilibrium(Phase& phase, const EquilibriumOptions& options, D
         gravity.acceleration_y = part * whole.acceleration_y;
         gravity.acceleration_z = part * whole.acceleration_z;
         end = WayToRest(phase, integrator, options, progress, after_step).go();
-        if (end == PhaseEnd::reached && left > 0)
-            progress = DrapeProgress{.time = progress.time, .load = progress.load};
+        if (end == PhaseEnd::reached && left > 0) progress = DrapeProgress{.load = progress.load};
         if (end == PhaseEnd::reached) ++progress.load;
     }
     phase.params().gravity = whole;
@@ -257,25 +250,26 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
                      DrapeProgress& progress, const AfterStep& after_step)
 {
     std::unique_ptr<Integrator> own;
-    StepControl control(phase, chosen(options, phase, own), starting_at(progress.time, options.step));
+    StepControl control(phase, chosen(options, phase, own), with_boundary(options.step));
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = options.newton_iterations;
     newton.tolerance = 1e-2;
-    newton.still = 3e-2;
-    newton.decrement = 1e-2;
+    newton.velocity_tolerance = 3e-2;
+    newton.energy_tolerance = 1e-2;
     newton.linear_tolerance = 0.2;
     newton.stop = &options.stop;
-    newton.most_left = 0.12 * phase.edge_length();
-    while (progress.time < until - 1e-9) {
+    newton.move_tolerance = 0.12 * phase.edge_length();
+    System& system = phase.system();
+    while (system.clock().time < until - 1e-9) {
+        const double time = system.clock().time;
         // Steps end on frame times, so that frames show computed states and not interpolated ones.
-        const double frame_end = frame_interval * (std::floor(progress.time / frame_interval + 1e-6) + 1);
-        progress.time += control.advance(std::min(frame_end, until) - progress.time, newton, true);
+        const double frame_end = frame_interval * (std::floor(time / frame_interval + 1e-6) + 1);
+        control.advance(std::min(frame_end, until) - time, newton, true);
         if (control.report().broken_off) return PhaseEnd::stopped;
         progress.dt = control.dt();
-        StepEvent event = event_of(control, progress);
-        event.residual = phase.newton().static_residual();
-        if (!after_step(event)) return PhaseEnd::stopped;
+        system.refresh_pairs();
+        if (!after_step(event_of(control, system, system.residual()))) return PhaseEnd::stopped;
     }
     return PhaseEnd::reached;
 }

@@ -25,6 +25,12 @@ struct IntegratorInfo {
 /// All integrators; the first is the default.
 std::span<const IntegratorInfo> integrators();
 
+/// An array that an integrator takes from one step to the next.
+struct HistoryArray {
+    std::string_view name;  ///< Unique within the integrator.
+    std::vector<real>* values;
+};
+
 /// Moves the cloth of one phase through time.
 class Integrator {
 public:
@@ -35,10 +41,10 @@ public:
     virtual NewtonReport step(double dt, const NewtonOptions& options) = 0;
     /// Forgets what earlier steps left: at the start, and when the state has been changed from outside.
     virtual void restart() {}
-    /// Forgets what no longer holds since a rule has moved the state a little after a step.
+    /// Forgets what no longer holds since a velocity filter has moved the state a little after a step.
     virtual void displaced() { restart(); }
     /// What besides the state a step depends on, for retries and checkpoints; the sizes never change.
-    virtual std::vector<std::vector<real>*> history() { return {}; }
+    virtual std::vector<HistoryArray> history() { return {}; }
     /// Largest error of a vertex that the last step has made, to leading order [m].
     virtual double error_estimate() const { return 0; }
     /// True if steps that are too long may add energy: such a step is then refused.

@@ -4,368 +4,292 @@
 #include <cmath>
 
 #include "host/parallel/launch.hpp"
-#include "host/solver/contact/anchors.hpp"
-#include "kernels/stages/limit_step.h"
+#include "host/solver/state/vectors.hpp"
+#include "kernels/stages/newton_steps.h"
 
 namespace selvage {
 namespace {
 
-constexpr double nearly_done = 10;         // times what would be done: a direction that gains no more may fail
-constexpr double noise_of_promise = 1e-9;  // of the objective: what a direction may promise wrongly
-constexpr double linear_tolerance_of_following = 0.1;
-constexpr int iterations_of_following =
-    60;                            // it only leads the cloth on: in a jam, which solves badly, part of it must do
-constexpr int turns_of_cloth = 3;  // iterations for each move of bodies or pins: pushed on and on it cannot make way
-constexpr int most_held_up = 60 * turns_of_cloth;  // iterations while they wait for it
+constexpr double almost = 10;           // times what would count as converged: a direction that gains no more may fail
+constexpr double promise_noise = 1e-9;  // part of the objective that a direction may promise wrongly by rounding
+constexpr double follow_tolerance = 0.1;   // relative residual of the solve that lets the cloth follow the pins
+constexpr int follow_iterations = 60;      // of that solve: it only leads the cloth on, and in a jam it converges badly
+constexpr int iterations_per_advance = 3;  // of bodies and pins: the cloth needs some to make way for the next advance
+constexpr int most_waiting_iterations = 60 * iterations_per_advance;  // while bodies and pins are not at their goal
 
-// Sum over vertices of the product of two fields with three components.
-double dot3(const State& state, const std::vector<real>& a, const std::vector<real>& b)
+// What is minimised; see Newton.
+struct Objective {
+    double span = 0;     // h [s]; 0: the static energy
+    double inertia = 0;  // 1/h^2; 0 for the static energy [1/s^2]
+    const std::vector<real>& origin;
+    const std::vector<real>& target;  // without a meaning for the static energy
+};
+
+// One minimisation.
+class Minimisation {
+public:
+    Minimisation(System& system, LinearSolver& linear, Newton::Vectors& vectors, const Objective& objective,
+                 const NewtonOptions& options)
+        : system_(system), state_(system.state()), linear_(linear), objective_(objective), options_(options),
+          start_(vectors.start), base_(vectors.base), downhill_(vectors.downhill), direction_(vectors.direction),
+          unlimited_(vectors.unlimited)
+    {
+        for (std::vector<real>* v : {&downhill_, &direction_}) v->resize(state_.pos.size());
+    }
+
+    void guess(const std::vector<real>* expected);
+    NewtonReport iterate(bool settles);
+
+private:
+    bool is_static() const { return objective_.inertia == 0; }
+    newton_descent_args descent() const;
+    newton_move_args movement(double fraction) const;
+    double value() const;
+    void evaluate_gradient();
+    void assemble(bool projected);
+    double search_direction();
+    bool search_line(double slope);
+    void move_along_direction(double fraction);
+    void return_to_base();
+    void go_to(const std::vector<real>& place);
+    void follow_pins(std::vector<real>& move);
+    bool advance_boundary();
+    bool moves_little() const;
+    bool almost_converged() const;
+
+    System& system_;
+    State& state_;
+    LinearSolver& linear_;
+    const Objective objective_;
+    const NewtonOptions& options_;
+    NewtonReport report_;
+    double promised_ = 0;     // decrease of the objective along the last direction, before it was limited [J]
+    double wanted_move_ = 0;  // largest displacement of that direction [m]
+    bool assembled_ = false;  // the linear solver has a matrix of this minimisation
+    std::vector<real>&start_, &base_, &downhill_, &direction_, &unlimited_;
+};
+
+newton_descent_args Minimisation::descent() const
 {
-    const int vs = state.size.vertex_stride;
-    return sum_items(state.size.vertex_count, [vs, x = a.data(), y = b.data()](int v) {
-        return x[v] * y[v] + x[vs + v] * y[vs + v] + x[2 * vs + v] * y[2 * vs + v];
-    });
+    return {state_.pos.data(),      state_.force.data(), objective_.target.data(), state_.mass.data(),
+            state_.inv_mass.data(), downhill_.data(),    objective_.inertia,       state_.size.vertex_stride};
 }
 
-}  // namespace
-
-Newton::Newton(State& state, const Params& params, LinearSolver& linear, ContactField* contact, ClothContact* cloth,
-               Profile& profile)
-    : state_(state), params_(params), linear_(linear), contact_(contact), cloth_(cloth), profile_(profile),
-      terms_(state, params, profile)
+newton_move_args Minimisation::movement(double fraction) const
 {
-    for (std::vector<real>* v : {&start_, &origin_, &target_, &base_, &downhill_, &direction_})
-        v->assign(state.pos.size(), 0);
-    const double gravity =
-        std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y, params.gravity.acceleration_z);
-    // Without gravity forces are measured against the weight that the cloth would have on earth.
-    const double scale = gravity > 0 ? gravity : 9.81;
-    force_scale_ = std::sqrt(sum_items(state.size.vertex_count, [&state, scale](int v) {
-        return state.inv_mass[v] == 0 ? 0.0 : scale * scale * state.mass[v] * state.mass[v];
-    }));
+    return {state_.pos.data(),        state_.vel.data(),      base_.data(), direction_.data(),
+            objective_.origin.data(), state_.inv_mass.data(), fraction,     is_static() ? 0 : 1 / objective_.span,
+            state_.size.vertex_stride};
 }
 
-double Newton::objective()
+double Minimisation::value() const
 {
-    double total = terms_.energy();
-    if (inertia_ == 0) return total;
-    total += span_ * terms_.dissipation();
-    const int vs = state_.size.vertex_stride;
-    return total + 0.5 * inertia_ * sum_items(state_.size.vertex_count, [this, vs](int v) {
-                       double squared = 0;
-                       for (int c = 0; c < 3; ++c) {
-                           const double d = state_.pos[c * vs + v] - target_[c * vs + v];
-                           squared += d * d;
-                       }
-                       return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
-                   });
+    double total = system_.awake_energy();
+    if (is_static()) return total;
+    total += objective_.span * system_.dissipation();
+    return total + 0.5 * objective_.inertia * launch_sum<newton_inertia>(Items{state_.size.vertex_count}, descent());
 }
 
 // downhill = f - m (x - target) / h^2, zero at vertices that are pinned or asleep.
-void Newton::evaluate_gradient()
+void Minimisation::evaluate_gradient()
 {
-    terms_.evaluate_forces(inertia_ > 0);
-    const int vs = state_.size.vertex_stride;
-    if (!state_.awake.all) for_each_item(int(downhill_.size()), [to = downhill_.data()](int i) { to[i] = 0; });
-    for_each_item(items_of(state_, ItemKind::vertex), [this, vs](int v) {
-        for (int c = 0; c < 3; ++c) {
-            const int i = c * vs + v;
-            const double pull = inertia_ * state_.mass[v] * (target_[i] - state_.pos[i]);
-            downhill_[i] = state_.inv_mass[v] == 0 ? 0 : state_.force[i] + pull;
-        }
-    });
+    if (is_static()) {
+        downhill_ = system_.static_force();
+        return;
+    }
+    system_.evaluate_forces(true);
+    if (!state_.awake.all) clear(downhill_);
+    launch<newton_descent>(items_of(state_, ItemKind::vertex), descent());
 }
 
-double Newton::gradient_norm() const { return std::sqrt(dot3(state_, downhill_, downhill_)); }
-
-void Newton::assemble(bool projected)
+void Minimisation::assemble(bool projected)
 {
     // d2/dx2 of h R(v) is 1/h of d2R/dv2.
-    terms_.evaluate_stiffness(projected, inertia_ > 0 ? 1 / span_ : 0);
-    profile_.timed("assemble", state_.size.vertex_count, 0, [&] { linear_.assemble(state_, inertia_); });
+    system_.evaluate_stiffness(projected, is_static() ? 0 : 1 / objective_.span);
+    system_.profile().timed("assemble", state_.size.vertex_count, 0,
+                            [&] { linear_.assemble(state_, objective_.inertia); });
     assembled_ = true;
 }
 
-// Solves for the direction; returns the slope of the objective along it (negative).
-double Newton::search_direction(const NewtonOptions& options, NewtonReport& report)
+// Solves for the direction and limits it; returns the slope of the objective along it (negative).
+double Minimisation::search_direction()
 {
-    assemble(!options.full_stiffness);
-    const LinearResult result = profile_.timed("linear_solve", state_.size.vertex_count, 0, [&] {
-        return linear_.solve(downhill_.data(), options.linear_tolerance, direction_.data());
+    assemble(!options_.full_stiffness);
+    const LinearResult result = system_.profile().timed("linear_solve", state_.size.vertex_count, 0, [&] {
+        return linear_.solve(downhill_.data(), options_.linear_tolerance, direction_.data());
     });
-    report.linear_iterations += result.iterations;
-    report.negative += result.negative_curvature;
-    report.blind += result.negative_curvature && result.iterations == 0;
-    if (dot3(state_, downhill_, direction_) < 0)  // only an indefinite matrix can give this
-        for_each_item(int(direction_.size()), [d = direction_.data()](int i) { d[i] = -d[i]; });
-    promised_ = dot3(state_, downhill_, direction_);
-    wanted_move_ = largest_move();
-    if (!contact_ && !cloth_) return -promised_;
-    free_direction_ = direction_;
-    if (contact_) keep_outside_bodies();
-    if (dot3(state_, downhill_, direction_) <= 0) take_free_direction();
-    if (cloth_) {
-        scale_to_longest(options);
-        clear_way(false);
-        if (dot3(state_, downhill_, direction_) <= 0) {
-            take_free_direction();
-            scale_to_longest(options);
-            clear_way(true);
-        }
-    }
-    return -dot3(state_, downhill_, direction_);
+    report_.linear_iterations += result.iterations;
+    report_.negative_curvature += result.negative_curvature;
+    report_.indefinite += result.negative_curvature && result.iterations == 0;
+    if (dot(state_, downhill_, direction_) < 0)  // only an indefinite matrix can give this
+        scale(direction_, -1);
+    promised_ = dot(state_, downhill_, direction_);
+    wanted_move_ = largest_move(state_, direction_);
+    if (!system_.bodies_exert_forces() && !system_.cloth_contact()) return -promised_;
+    limit_descent(system_, options_.move_limits, downhill_, direction_, unlimited_);
+    return -dot(state_, downhill_, direction_);
 }
 
-// Whoever has cleared a way has listed what is in contact on it: only who comes from elsewhere must look.
-void Newton::list_pairs()
+// x = base + fraction * direction, v = (x - origin) / h
+void Minimisation::move_along_direction(double fraction)
 {
-    if (cloth_) profile_.timed("cloth_contact_pairs", state_.size.vertex_count, 0, [&] { cloth_->update(state_); });
+    launch<newton_move>(state_.size.vertex_count, movement(fraction));
 }
 
-void Newton::clear_way(bool uniform)
+void Minimisation::return_to_base() { launch<newton_return>(state_.size.vertex_count, movement(0)); }
+
+// Moves from the start towards a place, as far as contacts let the vertices come.
+void Minimisation::go_to(const std::vector<real>& place)
 {
-    profile_.timed("cloth_contact_way", state_.size.vertex_count, 0,
-                   [&] { cloth_->clear_way(state_, direction_, uniform); });
+    return_to_base();
+    free_difference(state_, direction_, place, start_);
+    limit_guess(system_, options_.move_limits, direction_);
+    move_along_direction(longest_fraction(system_, options_.move_limits, direction_));
 }
 
-void Newton::scale_to_longest(const NewtonOptions& options)
+// Starts from where the cloth is, from where it would fly without forces, or from what its motion so far lets expect:
+// whichever has the lowest objective.
+void Minimisation::guess(const std::vector<real>* expected)
 {
-    const double fraction = longest_fraction(options);
-    if (fraction < 1) scale_direction(fraction);
-}
-
-void Newton::scale_direction(double by)
-{
-    for_each_item(int(direction_.size()), [d = direction_.data(), by](int i) { d[i] *= by; });
-}
-
-// Moves to base + fraction * direction.
-void Newton::place(double fraction)
-{
-    const double inverse_span = inertia_ > 0 ? 1 / span_ : 0;
-    const int vs = state_.size.vertex_stride;
-    for_each_item(state_.size.vertex_count, [=, this](int v) {
-        if (state_.inv_mass[v] == 0) return;
-        for (int i = v; i < 3 * vs; i += vs) {
-            state_.pos[i] = base_[i] + fraction * direction_[i];
-            state_.vel[i] = inverse_span * (state_.pos[i] - origin_[i]);
-        }
-    });
-}
-
-void Newton::keep_outside_bodies()
-{
-    launch<limit_step_vertex>(state_.size.vertex_count, limit_step_args{state_.pos.data(), state_.contact_normal.data(),
-                                                                        state_.contact_offset.data(), direction_.data(),
-                                                                        state_.size.vertex_stride});
-}
-
-// The direction as it was found, short enough as a whole that no vertex passes its plane: cutting vertices one by one
-// has turned it uphill.
-void Newton::take_free_direction()
-{
-    direction_ = free_direction_;
-    if (!contact_) return;
-    const int vs = state_.size.vertex_stride;
-    const double excess = max_items(state_.size.vertex_count, [this, vs](int v) {
-        double gap = -state_.contact_offset[v], approach = 0;
-        for (int i = v; i < 3 * vs; i += vs) {
-            gap += state_.contact_normal[i] * state_.pos[i];
-            approach -= state_.contact_normal[i] * direction_[i];
-        }
-        return gap > 0 ? approach / (gap * LIMIT_STEP_PART) : 0;
-    });
-    if (excess > 1) scale_direction(1 / excess);
-}
-
-// Starts a step from where it was, from where the cloth would fly on its own, or from what its motion so far lets
-// expect: whichever has the lowest objective.
-void Newton::guess_step(const NewtonOptions& options, const std::vector<real>* expected)
-{
-    if (contact_) contact_->update(state_);
+    start_ = state_.pos;
     base_ = start_;
-    const std::vector<real>* best = &start_;
-    double lowest = objective();
-    const auto go_to = [&](const std::vector<real>& to) {
-        place(0);
-        for_each_item(int(start_.size()), [&to, this, vs = state_.size.vertex_stride](int i) {
-            direction_[i] = state_.inv_mass[i % vs] == 0 ? 0 : to[i] - start_[i];
-        });
-        if (contact_) keep_outside_bodies();
-        if (cloth_) {
-            scale_to_longest(options);
-            clear_way(false);
-        }
-        place(longest_fraction(options));
-    };
-    const std::vector<real>* at = nullptr;
-    for (const std::vector<real>* candidate : {expected, static_cast<const std::vector<real>*>(&target_)}) {
+    if (system_.bodies_exert_forces()) system_.refresh_planes();
+    const std::vector<real>*best = &start_, *reached = &start_;
+    double lowest = value();
+    for (const std::vector<real>* candidate : {expected, &objective_.target}) {
         if (!candidate) continue;
-        // Ways through cloth are dear to clear: where there is any, one must do.
-        if (at && cloth_ && cloth_->is_near_itself()) break;
+        // Checking a way through cloth takes long: where cloth is near itself, one must do.
+        if (reached != &start_ && system_.cloth_contact() && system_.cloth_contact()->has_candidates()) break;
         go_to(*candidate);
-        at = candidate;
-        const double there = objective();
+        reached = candidate;
+        const double there = value();
         if (!(there < lowest)) continue;
         lowest = there;
         best = candidate;
     }
-    if (best == &start_) place(0);
-    if (best != &start_ && best != at) go_to(*best);
-}
-
-double Newton::largest_move() const
-{
-    const int vs = state_.size.vertex_stride;
-    return std::sqrt(max_items(state_.size.vertex_count, [this, vs](int v) {
-        const double x = direction_[v], y = direction_[vs + v], z = direction_[2 * vs + v];
-        return x * x + y * y + z * z;
-    }));
-}
-
-// The largest part of the direction that carries no vertex further than what is known of the bodies around it.
-double Newton::longest_fraction(const NewtonOptions& options) const
-{
-    if (!contact_) return 1;
-    const int vs = state_.size.vertex_stride;
-    const double excess = max_items(state_.size.vertex_count, [this, vs, &options](int v) {
-        double squared_way = 0, squared_normal = 0;
-        for (int c = 0; c < 3; ++c) {
-            squared_way += direction_[c * vs + v] * direction_[c * vs + v];
-            squared_normal += state_.contact_normal[c * vs + v] * state_.contact_normal[c * vs + v];
-        }
-        return std::sqrt(squared_way) / (squared_normal > 0 ? options.max_move : options.max_far_move);
-    });
-    return excess > 1 ? 1 / excess : 1;
+    if (best == &start_)
+        return_to_base();
+    else if (best != reached)
+        go_to(*best);
 }
 
 // Backtracks until the objective falls by a fraction of what the slope promises. Below the rounding noise of the
 // objective the slope itself decides: a direction that still points downhill has not gone too far.
-bool Newton::search_line(double slope, const NewtonOptions& options)
+bool Minimisation::search_line(double slope)
 {
     base_ = state_.pos;
-    const double before = objective();
-    double fraction = longest_fraction(options);
+    const double before = value();
+    double fraction = longest_fraction(system_, options_.move_limits, direction_);
     const double noise = 1e-13 * std::abs(before) + 1e-16;
     for (int attempt = 0; attempt < 16; ++attempt) {
-        place(fraction);
-        const double after = objective();
+        move_along_direction(fraction);
+        const double after = value();
         if (std::isfinite(after) && after <= before + 1e-4 * fraction * slope) return true;
         if (std::isfinite(after) && std::abs(after - before) <= noise) {
             evaluate_gradient();
-            if (std::abs(dot3(state_, downhill_, direction_)) <= 0.9 * std::abs(slope)) return true;
+            if (std::abs(dot(state_, downhill_, direction_)) <= 0.9 * std::abs(slope)) return true;
         }
         fraction *= 0.5;
     }
-    place(0);
+    return_to_base();
     return false;
 }
 
-// The first-order answer of the free vertices to moves of pinned ones: K_ff d = -K_fp u.
-void Newton::follow_pins(std::vector<real>& move)
+// The first-order answer of the free vertices to moves u of pinned ones: K_ff d = -K_fp u.
+void Minimisation::follow_pins(std::vector<real>& move)
 {
     if (!assembled_) assemble(true);
     linear_.multiply(move.data(), downhill_.data());
-    for_each_item(int(move.size()), [this, vs = state_.size.vertex_stride](int i) {
-        downhill_[i] = i % vs < state_.size.vertex_count && state_.inv_mass[i % vs] != 0 ? -downhill_[i] : 0;
-    });
-    linear_.solve(downhill_.data(), linear_tolerance_of_following, direction_.data(), iterations_of_following);
-    if (contact_) keep_outside_bodies();
-    for_each_item(int(move.size()), [&, this, vs = state_.size.vertex_stride](int i) {
-        if (state_.inv_mass[i % vs] != 0) move[i] = direction_[i];
-    });
+    free_negative(state_, downhill_, downhill_);
+    linear_.solve(downhill_.data(), follow_tolerance, direction_.data(), follow_iterations);
+    keep_outside_bodies(system_, direction_);
+    free_copy(state_, move, direction_);
 }
 
-// Moves bodies and pins on, with what they push. Returns whether they are not where they are to be yet.
-bool Newton::advance_held()
+// Moves bodies and pins on, with the cloth that they push; returns whether they still wait for it to make way.
+bool Minimisation::advance_boundary()
 {
-    if (!cloth_ || !cloth_->held_up()) return false;
-    const bool held_up = profile_.timed("advance_held", state_.size.vertex_count, 0, [&] {
-        return cloth_->advance_held(state_, [this](std::vector<real>& move) { follow_pins(move); });
-    });
+    if (!system_.boundary_waits()) return false;
+    const bool waits = system_.advance_boundary([this](std::vector<real>& move) { follow_pins(move); });
     base_ = state_.pos;
-    place(0);
-    return held_up;
+    return_to_base();  // the velocities of what was pushed
+    return waits;
 }
 
-NewtonReport Newton::iterate(const NewtonOptions& options, bool settle_each)
+// Stiff directions leave forces that no longer move anything: what counts in a motion is the displacement, not the
+// force. A displacement that contact has cut short says nothing, so it is that of the direction before it was limited.
+bool Minimisation::moves_little() const
 {
-    NewtonReport report;
-    for (;; ++report.iterations) {
-        report.broken_off = options.stop && *options.stop && (*options.stop)();
-        if (report.broken_off) return report;
-        const bool held_up = report.iterations % turns_of_cloth == 0 ? advance_held() : cloth_ && cloth_->held_up();
-        if (contact_) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { contact_->update(state_); });
-        if (settle_each) settle();
+    return wanted_move_ <= options_.velocity_tolerance * objective_.span ||
+           (promised_ <= options_.energy_tolerance * system_.kinetic_energy() &&
+            wanted_move_ <= options_.move_tolerance);
+}
+
+bool Minimisation::almost_converged() const
+{
+    return promised_ <=
+           almost * options_.energy_tolerance * system_.kinetic_energy() + promise_noise * std::abs(value());
+}
+
+// @param settles  friction settles before each iteration
+NewtonReport Minimisation::iterate(bool settles)
+{
+    for (;; ++report_.iterations) {
+        report_.broken_off = options_.stop && *options_.stop && (*options_.stop)();
+        if (report_.broken_off) return report_;
+        const bool waits =
+            report_.iterations % iterations_per_advance == 0 ? advance_boundary() : system_.boundary_waits();
+        if (system_.bodies_exert_forces())
+            system_.profile().timed("body_query", state_.size.vertex_count, 0, [&] { system_.refresh_planes(); });
+        if (settles) system_.settle();
         evaluate_gradient();
-        report.residual = gradient_norm() / force_scale_;
-        report.converged = !held_up && report.residual <= options.tolerance;
-        const int most = held_up ? std::max(options.max_iterations, most_held_up) : options.max_iterations;
-        if (report.converged || report.iterations >= most) return report;
-        const double slope = search_direction(options, report);
-        // Stiff directions leave forces that no longer move anything: what counts in a motion is the way, not the
-        // force. A way that has been cut short says nothing: what it would have been does.
-        report.converged =
-            !held_up &&
-            (wanted_move_ <= options.still * span_ ||
-             (promised_ <= options.decrement * terms_.kinetic_energy() && wanted_move_ <= options.most_left));
-        report.stuck = !std::isfinite(slope) || !search_line(slope, options);
-        report.nearly = report.stuck && promised_ <= nearly_done * options.decrement * terms_.kinetic_energy() +
-                                                         noise_of_promise * std::abs(objective());
-        if ((report.stuck && !held_up) || report.converged) return report;
+        report_.residual = std::sqrt(dot(state_, downhill_, downhill_)) / system_.force_scale();
+        report_.converged = !waits && report_.residual <= options_.tolerance;
+        const int most = waits ? std::max(options_.max_iterations, most_waiting_iterations) : options_.max_iterations;
+        if (report_.converged || report_.iterations >= most) return report_;
+        const double slope = search_direction();
+        report_.converged = !waits && moves_little();
+        report_.stuck = !std::isfinite(slope) || !search_line(slope);
+        report_.almost_converged = report_.stuck && almost_converged();
+        if ((report_.stuck && !waits) || report_.converged) return report_;
     }
 }
+
+}  // namespace
 
 NewtonReport Newton::minimise(double span, const std::vector<real>& origin, const std::vector<real>& target,
                               const NewtonOptions& options, const std::vector<real>* expected)
 {
-    if (cloth_) cloth_->start_step();
-    span_ = span;
-    assembled_ = false;
-    inertia_ = 1 / (span * span);
-    start_ = state_.pos;
-    origin_ = origin;
-    target_ = target;
-    for_each_item(int(state_.vel.size()),
-                  [this, inverse = 1 / span](int i) { state_.vel[i] = inverse * (start_[i] - origin_[i]); });
-    guess_step(options, expected);
-    return iterate(options, false);
-}
-
-NewtonReport Newton::step(double dt, const NewtonOptions& options)
-{
-    base_ = state_.pos;
-    for_each_item(int(base_.size()), [this, dt](int i) { direction_[i] = base_[i] + dt * state_.vel[i]; });
-    const NewtonReport report = minimise(dt, base_, direction_, options);
-    settle();
-    return report;
-}
-
-void Newton::settle()
-{
-    settle_anchors(state_, params_);
-    if (cloth_) cloth_->settle(state_, params_);
+    State& state = system_.state();
+    system_.forget_searches();
+    scale_difference(state.vel, 1 / span, state.pos, origin);
+    Minimisation minimisation(system_, linear_, vectors_, {span, 1 / (span * span), origin, target}, options);
+    minimisation.guess(expected);
+    return minimisation.iterate(false);
 }
 
 NewtonReport Newton::relax(const NewtonOptions& options)
 {
-    span_ = 0;
-    assembled_ = false;
-    inertia_ = 0;
-    start_ = origin_ = state_.pos;
-    std::fill(state_.vel.begin(), state_.vel.end(), 0);
-    if (cloth_) cloth_->start_step();
-    list_pairs();
-    return iterate(options, true);
+    State& state = system_.state();
+    vectors_.start = state.pos;
+    clear(state.vel);
+    system_.forget_searches();
+    system_.refresh_pairs();
+    return Minimisation(system_, linear_, vectors_, {0, 0, vectors_.start, vectors_.start}, options).iterate(true);
 }
 
-double Newton::static_residual()
+NewtonReport implicit_euler_step(Newton& newton, double dt, const NewtonOptions& options,
+                                 std::vector<real>* free_flight)
 {
-    inertia_ = 0;
-    list_pairs();
-    evaluate_gradient();
-    const double asleep = state_.awake.all ? 0 : state_.awake.force_squared;
-    return std::sqrt(dot3(state_, downhill_, downhill_) + asleep) / force_scale_;
+    const State& state = newton.system().state();
+    const std::vector<real> origin = state.pos;
+    std::vector<real> own;
+    std::vector<real>& target = free_flight ? *free_flight : own;
+    target.resize(origin.size());
+    add(target, origin, dt, state.vel);
+    const NewtonReport report = newton.minimise(dt, origin, target, options);
+    newton.system().settle();
+    return report;
 }
 
 }  // namespace selvage

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/parallel/launch.hpp"
-#include "host/solver/terms/elastic_energy.hpp"
+#include "host/solver/state/planes.hpp"
 
 namespace selvage {
 namespace {
@@ -20,13 +20,11 @@ double largest_gap(const Phase& phase)
 {
     const State& s = phase.state();
     const auto& stitches = phase.topology().stitches;
-    const int vs = s.size.vertex_stride;
+    const ConstPlanes x = vertex_planes(s.size, s.pos);
     return std::sqrt(max_items(int(stitches.size()), [&](int k) {
+        const Vec3 d = x(stitches[k][0]) - x(stitches[k][1]);
         double squared = 0;
-        for (int c = 0; c < 3; ++c) {
-            const double d = s.pos[c * vs + stitches[k][0]] - s.pos[c * vs + stitches[k][1]];
-            squared += d * d;
-        }
+        for (int c = 0; c < 3; ++c) squared += d[c] * d[c];
         return squared;
     }));
 }
@@ -49,9 +47,10 @@ void pull_harder_if_stuck(Phase& phase, const SewingOptions& options, SewingProg
     progress.steps_without_gain = 0;
 }
 
-void note_step(Phase& phase, SewingProgress& progress)
+void note_step(const Phase& phase, SewingProgress& progress)
 {
-    const double energy = in_plane_energy(phase.newton().terms()) + bending_energy(phase.newton().terms());
+    const System& system = phase.system();
+    const double energy = system.energy_of(EnergyFamily::membrane) + system.energy_of(EnergyFamily::bending);
     progress.gap = largest_gap(phase);
     progress.energy_change = std::abs(energy - progress.elastic_energy) / std::max(energy, 1e-12);
     progress.elastic_energy = energy;
@@ -69,14 +68,15 @@ PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progres
     NewtonOptions newton;
     newton.max_iterations = 3;  // on the way to a closed seam accuracy in time is worth nothing
     newton.tolerance = 1e-2;
+    const Clock& clock = phase.system().clock();
     while (!closed(options, progress)) {
-        if (progress.time >= options.max_time) return PhaseEnd::time_limit;
+        if (clock.time >= options.max_time) return PhaseEnd::time_limit;
         pull_harder_if_stuck(phase, options, progress);
-        progress.time += control.advance(options.step, newton, false);
+        control.advance(options.step, newton, false);
         progress.dt = control.dt();
         note_step(phase, progress);
-        if (!after_step({progress.time, control.taken(), control.report().iterations,
-                         control.report().linear_iterations, progress.gap / options.closed}))
+        if (!after_step({clock.time, control.taken(), control.report().iterations, control.report().linear_iterations,
+                         progress.gap / options.closed}))
             return PhaseEnd::stopped;
     }
     return PhaseEnd::reached;
@@ -97,12 +97,14 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
     if (progress.dt > 0) control.set_dt(progress.dt);
     NewtonOptions newton;
     newton.max_iterations = 2;
+    const Clock start = phase.system().clock();  // pressing takes none of the run's time
     PhaseEnd end = PhaseEnd::reached;
     while (progress.step < press_steps && end == PhaseEnd::reached) {
         control.advance(step, newton, false);
+        phase.system().clock() = start;
         ++progress.step;
         progress.dt = control.dt();
-        if (!after_step({0, control.taken(), control.report().iterations, control.report().linear_iterations,
+        if (!after_step({start.time, control.taken(), control.report().iterations, control.report().linear_iterations,
                          control.report().residual}))
             end = PhaseEnd::stopped;
     }

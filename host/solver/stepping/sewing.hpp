@@ -13,7 +13,6 @@ struct SewingOptions {
 
 /// Where a sewing phase stands; kept in checkpoints.
 struct SewingProgress {
-    double time = 0;         ///< [s]
     double best_gap = 1e30;  ///< Smallest value of the largest gap so far [m].
     int steps_without_gain = 0;
     double elastic_energy = 0;  ///< After the last step [J].
@@ -31,7 +30,7 @@ struct PressProgress {
 /// Returns the largest distance of a stitched pair [m], 0 without stitches.
 double largest_gap(const Phase& phase);
 
-/// Draws the panels together (A9, B13): springs, seam force, damping and contact, no gravity, until every pair is
+/// Draws the panels together: springs, seam force, damping and contact, no gravity, until every pair is
 /// closer than `closed` and the elastic energy has settled. A seam that makes no headway is pulled harder.
 PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progress, const AfterStep& after_step);
 

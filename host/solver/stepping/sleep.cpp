@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/parallel/launch.hpp"
+#include "host/solver/state/vectors.hpp"
 
 namespace selvage {
 namespace {
@@ -35,13 +36,10 @@ void spread(const std::vector<int>& corners, int stride, int count, int per_item
 }
 
 // Those that move, or are about to, with what is around them.
-std::vector<char> restless(const Phase& phase)
+std::vector<char> restless(const State& s, const std::vector<real>& force)
 {
-    const State& s = phase.state();
     const int n = s.size.vertex_count, vs = s.size.vertex_stride;
-    const std::vector<real>& force = phase.newton().downhill();
-    const double fastest = max_items(n, [&](int v) { return squared(s.vel, vs, v); });
-    const double mean = sum_items(n, [&](int v) { return squared(force, vs, v); }) / n;
+    const double fastest = largest_square(s, s.vel), mean = square(s, force, Items{n}) / n;
     std::vector<char> is_awake(std::size_t(n), 0);
     for_each_item(n, [&](int v) {
         is_awake[v] = squared(s.vel, vs, v) > hardly * hardly * fastest || squared(force, vs, v) > balanced * mean;
@@ -88,10 +86,10 @@ std::vector<char> hinges_awake(const State& s, const std::vector<char>& is_awake
 
 }  // namespace
 
-void put_to_sleep(Phase& phase, const std::vector<char>& is_awake, double force_squared)
+void put_to_sleep(System& system, const std::vector<char>& is_awake, double force_squared)
 {
     const TraceScope scope("fall_asleep");
-    State& s = phase.state();
+    State& s = system.state();
     AwakeItems& awake = s.awake;
     awake.all = false;
     awake.is_awake = is_awake;
@@ -104,45 +102,38 @@ void put_to_sleep(Phase& phase, const std::vector<char>& is_awake, double force_
     LIST(stitch, 2)
     LIST(spring, 2)
 #undef LIST
-    for_each_item(s.size.vertex_count, [&s, &is_awake, vs = s.size.vertex_stride](int v) {
-        if (is_awake[v]) return;
-        for (int c = 0; c < 3; ++c) s.vel[c * vs + v] = 0;
-    });
-    if (phase.cloth_contact()) phase.cloth_contact()->let_sleep(&awake.is_awake);
+    clear_asleep(s, s.vel);
+    if (system.cloth_contact()) system.cloth_contact()->let_sleep(&awake.is_awake);
 }
 
-void wake(Phase& phase)
+void wake(System& system)
 {
-    phase.state().awake.all = true;
-    if (phase.cloth_contact()) phase.cloth_contact()->let_sleep(nullptr);
+    system.state().awake.all = true;
+    if (system.cloth_contact()) system.cloth_contact()->let_sleep(nullptr);
 }
 
-bool may_sleep(const Phase& phase)
+bool may_sleep(const System& system)
 {
-    const ClothContact* cloth = phase.cloth_contact();
-    return !phase.has_rules() && !(cloth && (cloth->counts().tangles > 0 || cloth->counts().inside > 0));
+    const ClothContact* cloth = system.cloth_contact();
+    return !system.has_velocity_filters() && !(cloth && (cloth->counts().tangles > 0 || cloth->counts().inside > 0));
 }
 
-void rest_in_places(Phase& phase, int& steps_left)
+void rest_in_places(System& system, const std::vector<real>& force, int& steps_left)
 {
-    State& s = phase.state();
-    const int vs = s.size.vertex_stride;
-    const std::vector<real>& force = phase.newton().downhill();
+    const State& s = system.state();
     if (steps_left > 0) {
-        const double moving = sum_items(items_of(s, ItemKind::vertex), [&](int v) { return squared(force, vs, v); });
+        const double moving = square(s, force, items_of(s, ItemKind::vertex));
         --steps_left;
         // What sleeps holds it up once its own forces are what is left.
         if (moving < s.awake.force_squared) steps_left = 0;
-        if (steps_left == 0) wake(phase);
+        if (steps_left == 0) wake(system);
         return;
     }
-    if (!may_sleep(phase)) return;
-    const std::vector<char> is_awake = restless(phase);
-    const double awake = double(std::count(is_awake.begin(), is_awake.end(), 1));
-    if (awake > worth_while * s.size.vertex_count || awake == 0) return;
-    const double left =
-        sum_items(s.size.vertex_count, [&](int v) { return is_awake[v] ? 0.0 : squared(force, vs, v); });
-    put_to_sleep(phase, is_awake, left);
+    if (!may_sleep(system)) return;
+    const std::vector<char> is_awake = restless(s, force);
+    const double count = double(std::count(is_awake.begin(), is_awake.end(), 1));
+    if (count > worth_while * s.size.vertex_count || count == 0) return;
+    put_to_sleep(system, is_awake, square_asleep(s, force, is_awake));
     steps_left = nap;
 }
 

@@ -5,8 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "host/parallel/launch.hpp"
-#include "host/solver/state/vector_tools.hpp"
+#include "host/solver/state/vectors.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -24,40 +23,28 @@ UnstableStepError::UnstableStepError(double asked, double stable)
 {
 }
 
-void StepControl::keep(Saved& saved)
+StepControl::StepControl(Phase& phase, Integrator& integrator, const StepOptions& options)
+    : system_(phase.system()), integrator_(integrator), options_(options), dt_(options.longest),
+      moves_(options.moves_boundary && system_.motion_end() > 0)
 {
-    const State& state = phase_.state();
-    saved.pos = state.pos;
-    saved.vel = state.vel;
-    saved.anchor = state.friction_anchor;
-    saved.limit = state.friction_limit;
-    saved.hinge_anchor = state.hinge_anchor;
-    if (phase_.cloth_contact()) saved.pairs = phase_.cloth_contact()->memory();
-    const auto arrays = integrator_.history();
-    saved.history.resize(arrays.size());
-    for (std::size_t k = 0; k < arrays.size(); ++k) saved.history[k] = *arrays[k];
+    if (moves_) system_.place_boundary();
 }
 
-void StepControl::restore(const Saved& saved)
+void StepControl::return_to(const SolverSnapshot& place, double time)
 {
-    State& state = phase_.state();
-    state.pos = saved.pos;
-    state.vel = saved.vel;
-    state.friction_anchor = saved.anchor;
-    state.friction_limit = saved.limit;
-    state.hinge_anchor = saved.hinge_anchor;
-    if (phase_.cloth_contact()) phase_.cloth_contact()->memory() = saved.pairs;
-    const auto arrays = integrator_.history();
-    for (std::size_t k = 0; k < arrays.size(); ++k) *arrays[k] = saved.history[k];
-    if (phase_.contact()) phase_.contact()->update(state);
-    phase_.newton().list_pairs();  // what was listed on the way that is given up says nothing of this place
+    system_.clock() = {time, 0};
+    if (moves_) system_.place_boundary();
+    restore(system_, &integrator_, place);
+    system_.refresh_planes();
+    system_.refresh_pairs();  // what was listed on the way that is given up says nothing of this place
+    looked_from_ = place.fields.pos;
 }
 
 // The length of the next step when `left` seconds are to be covered; an explicit scheme divides them evenly.
 // @param begins  at a state that has been accepted: only there a run may end because of the limit
 double StepControl::next_step(double left, bool begins)
 {
-    if (!integrator_.info().is_explicit) return std::min(dt_, left);
+    if (!fills()) return std::min(dt_, left);
     limit_ = integrator_.stable_step();
     if (begins && options_.unstable == UnstableStep::refuse && options_.longest > limit_)
         throw UnstableStepError(options_.longest, limit_);
@@ -69,20 +56,20 @@ double StepControl::next_step(double left, bool begins)
 // cloth without it are looked at as a whole.
 bool StepControl::cloth_is_clear()
 {
-    ClothContact* cloth = phase_.cloth_contact();
+    ClothContact* cloth = system_.cloth_contact();
     if (!cloth) return true;
-    if (cloth->held_up()) return false;
-    return !integrator_.may_gain_energy() || cloth->is_clear_from(phase_.state(), start_.pos);
+    if (cloth->boundary_is_pending()) return false;
+    return !integrator_.may_gain_energy() || cloth->is_clear_from(system_.state(), start_.fields.pos);
 }
 
-bool StepControl::attempt(double dt, const NewtonOptions& options, bool accurate)
+bool StepControl::solve(double dt, const NewtonOptions& options, bool accurate)
 {
     report_ = integrator_.step(dt, options);
-    if (!std::isfinite(report_.residual) || !is_finite(phase_.state())) return false;
-    if (phase_.apply_rules(dt)) integrator_.displaced();
+    if (!std::isfinite(report_.residual) || !is_finite(system_.state())) return false;
+    if (system_.apply_velocity_filters(dt)) integrator_.displaced();
     if (!cloth_is_clear()) return false;
     if (report_.stuck && report_.iterations == 0 && report_.residual > 10 * options.tolerance) return false;
-    return !accurate || report_.converged || report_.nearly;
+    return !accurate || report_.converged || report_.almost_converged;
 }
 
 // Fits the next step to the estimated error of the one just taken, which goes with a known power of its length.
@@ -105,42 +92,31 @@ bool StepControl::too_inaccurate(double dt)
 bool StepControl::passed_into_body(bool last)
 {
     // Ways against moving bodies are cleared as they are gone.
-    if (!phase_.contact() || (moves_ && phase_.cloth_contact())) return false;
-    const State& state = phase_.state();
-    const double piece = 0.5 * phase_.contact()->search_radius();
+    if (!system_.body_contact() || (moves_ && system_.cloth_contact())) return false;
+    const State& state = system_.state();
+    const double piece = 0.5 * system_.body_contact()->search_radius();
     if (!last && largest_distance(state, state.pos, looked_from_) < piece) return false;
-    const bool passed = phase_.contact()->crossed(state, looked_from_);
+    const bool passed = system_.body_contact()->crossed(state, looked_from_);
     looked_from_ = state.pos;
     return passed;
 }
 
 // Nothing feeds the cloth but bodies and pins that move, whose work is not known: without them its energy falls, but
 // for the waves of a scheme that keeps it on average.
-bool StepControl::keeps_energy(double span, double kinetic_before, double potential_before)
+bool StepControl::keeps_energy(const Cover& cover)
 {
     if (moves_ || !integrator_.may_gain_energy()) return true;
     if (std::isnan(first_energy_)) {
-        first_energy_ = kinetic_before + potential_before;
-        lowest_potential_ = potential_before;
+        first_energy_ = cover.kinetic_before + cover.potential_before;
+        lowest_potential_ = cover.potential_before;
     }
-    highest_kinetic_ = std::max(highest_kinetic_, kinetic_before);
-    lowest_potential_ = std::min(lowest_potential_, potential_before);
-    const State& s = phase_.state();
-    const double mass = sum_items(s.size.vertex_count, [&s](int v) { return s.inv_mass[v] == 0 ? 0.0 : s.mass[v]; });
-    const double falling = 0.5 * mass * std::pow(9.81 * span, 2);
+    highest_kinetic_ = std::max(highest_kinetic_, cover.kinetic_before);
+    lowest_potential_ = std::min(lowest_potential_, cover.potential_before);
+    const double falling = 0.5 * free_mass(system_.state()) * std::pow(9.81 * cover.length, 2);
     const double moved = std::max(highest_kinetic_, first_energy_ - lowest_potential_) + falling;
     // What has just gone deep into a contact shows there only, and not in the planes that the step began with.
-    if (phase_.contact()) phase_.contact()->update(phase_.state());
-    const ActiveTerms& terms = phase_.newton().terms();
-    return terms.kinetic_energy() + terms.potential_energy() - first_energy_ <= most_gain * moved;
-}
-
-// Back to where the step began.
-void StepControl::give_up()
-{
-    if (moves_) phase_.place(clock_);
-    restore(start_);
-    looked_from_ = start_.pos;
+    system_.refresh_planes();
+    return system_.kinetic_energy() + system_.potential_energy() - first_energy_ <= most_gain * moved;
 }
 
 // After a failure.
@@ -154,52 +130,70 @@ void StepControl::shrink(double dt)
                         options_.longest, report_.residual));
 }
 
+StepControl::Cover StepControl::start(double room)
+{
+    keep(system_, &integrator_, start_);
+    looked_from_ = start_.fields.pos;
+    floor_ = least_fraction * std::min(options_.longest, integrator_.stable_step());
+    if (moves_) room = system_.longest_step(room);
+    Cover cover{.begin = system_.clock().time, .length = fills() ? std::min(options_.longest, room) : room};
+    if (integrator_.may_gain_energy()) {
+        cover.kinetic_before = system_.kinetic_energy();
+        cover.potential_before = system_.potential_energy();
+    }
+    shortest_ = cover.length;
+    return cover;
+}
+
+// Whether a step is the last one that the cover needs.
+bool StepControl::ends(const Cover& cover, double dt) const
+{
+    return !fills() || cover.length - cover.done - dt <= 1e-9 * cover.length;
+}
+
+StepControl::Verdict StepControl::try_step(const Cover& cover, double dt, const NewtonOptions& options, bool accurate)
+{
+    system_.clock() = {cover.begin + cover.done, dt};
+    if (moves_) system_.move_boundary();
+    // A limit that collapses on the way, or is no number, is that of a state that bursts.
+    const bool sound = !fills() || dt >= floor_ || dt >= 0.5 * (cover.length - cover.done);
+    const bool solved = sound && solve(dt, options, accurate);
+    if (sound && report_.broken_off) return Verdict::broken_off;
+    const bool last = ends(cover, dt);
+    if (!solved || passed_into_body(last) || (last && !keeps_energy(cover))) return Verdict::failed;
+    return adapts() && too_inaccurate(dt) ? Verdict::inaccurate : Verdict::accepted;
+}
+
 double StepControl::advance(double room, const NewtonOptions& options, bool accurate)
 {
-    const bool fills = integrator_.info().is_explicit;
-    const bool adaptive = options_.adaptive && integrator_.info().has_error_estimate();
-    const ActiveTerms& terms = phase_.newton().terms();
-    keep(start_);
-    looked_from_ = start_.pos;
-    floor_ = least_fraction * std::min(options_.longest, integrator_.stable_step());
-    if (moves_) room = phase_.longest_step(clock_, room);
-    const bool gains = integrator_.may_gain_energy();
-    const double kinetic = gains ? terms.kinetic_energy() : 0, potential = gains ? terms.potential_energy() : 0;
-    const double span = fills ? std::min(options_.longest, room) : room;
-    double done = 0, first = 0;
-    shortest_ = span;
+    Cover cover = start(room);
     for (;;) {
-        const double dt = next_step(span - done, done == 0);
-        if (done == 0) first = dt;
-        if (adaptive && done > 0) keep(last_);
-        // A limit that collapses on the way, or is no number, is that of a state that bursts.
-        const bool sound = !fills || dt >= floor_ || dt >= 0.5 * (span - done);
-        const bool last = !fills || span - done - dt <= 1e-9 * span;
-        if (moves_) phase_.move_to(clock_ + done + dt);
-        const bool done_well = sound && attempt(dt, options, accurate);
-        if (sound && report_.broken_off) {
-            give_up();
-            return taken_ = 0;
+        const double dt = next_step(cover.length - cover.done, cover.done == 0);
+        if (cover.done == 0) cover.first = dt;
+        if (adapts() && cover.done > 0) keep(system_, &integrator_, last_);
+        switch (try_step(cover, dt, options, accurate)) {
+            case Verdict::broken_off:
+                return_to(start_, cover.begin);
+                return taken_ = 0;
+            case Verdict::failed:
+                return_to(start_, cover.begin);
+                cover.done = 0;
+                shrink(cover.first);
+                continue;
+            case Verdict::inaccurate:  // too_inaccurate has chosen a shorter one
+                ++retries_;
+                return_to(cover.done > 0 ? last_ : start_, cover.begin + cover.done);
+                continue;
+            case Verdict::accepted:
+                break;
         }
-        if (!done_well || passed_into_body(last) || (last && !keeps_energy(span, kinetic, potential))) {
-            give_up();
-            done = 0;
-            shrink(first);
-            continue;
-        }
-        if (adaptive && too_inaccurate(dt)) {
-            ++retries_;
-            if (moves_) phase_.place(clock_ + done);
-            restore(done > 0 ? last_ : start_);
-            looked_from_ = phase_.state().pos;
-            continue;
-        }
-        if (!adaptive && last) dt_ = std::min(options_.longest, 1.5 * dt_);
-        done += dt;
+        const bool last = ends(cover, dt);
+        if (!adapts() && last) dt_ = std::min(options_.longest, 1.5 * dt_);
+        cover.done += dt;
         shortest_ = std::min(shortest_, dt);
         if (!last) continue;
-        taken_ = fills ? span : dt;
-        clock_ += taken_;
+        taken_ = fills() ? cover.length : dt;
+        system_.clock() = {cover.begin + taken_, 0};
         return taken_;
     }
 }

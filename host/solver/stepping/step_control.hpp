@@ -1,5 +1,4 @@
 #pragma once
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -7,6 +6,8 @@
 
 #include "host/solver/stepping/integrator.hpp"
 #include "host/solver/stepping/phase.hpp"
+#include "host/solver/stepping/solver_snapshot.hpp"
+#include "io/choices.hpp"
 
 namespace selvage {
 
@@ -18,7 +19,8 @@ struct StepEvent {
     int linear_iterations = 0;
     double residual = 0;  ///< Relative static force residual [1]; while sewing: largest gap over the closed gap.
     double stable_step = std::numeric_limits<double>::infinity();  ///< Limit of an explicit scheme [s].
-    double shortest = 0;  ///< Shortest of the steps that dt was made of [s]; 0: one step.
+    double shortest = 0;               ///< Shortest of the steps that dt was made of [s]; 0: one step.
+    std::string_view integrator = {};  ///< That took the step; empty for a relaxation.
 };
 
 /// Called after every accepted step; false ends the phase (an interrupt, a limit on wall time).
@@ -26,15 +28,12 @@ using AfterStep = std::function<bool(const StepEvent&)>;
 
 enum class PhaseEnd { reached, time_limit, stopped };
 
-/// What happens to a step above an explicit scheme's stability limit.
-enum class UnstableStep { shrink, refuse };
-
 struct StepOptions {
     double longest = 0.02;  ///< Step that is taken while nothing fails [s].
-    bool adaptive = false;  ///< Steps follow the integrator's estimate of its error, if it has one (A8).
+    bool adaptive = false;  ///< Steps follow the integrator's estimate of its error, if it has one.
     double error = 1e-4;    ///< Error of one step that adaptive steps allow [m].
-    UnstableStep unstable = UnstableStep::shrink;
-    double start = std::numeric_limits<double>::quiet_NaN();  ///< Time of the first step [s]; NaN: nothing is moved.
+    UnstableStep unstable = UnstableStep::shrink;  ///< A step above an explicit scheme's stability limit.
+    bool moves_boundary = false;  ///< Bodies and held vertices move with the clock; otherwise they stand still.
 };
 
 /// Thrown where a step above the stability limit is to be refused.
@@ -44,21 +43,16 @@ public:
     double limit;  ///< [s]
 };
 
-/// Takes steps of an integrator, and retries one that fails with half its length. Explicit schemes fill a step with
-/// as many shorter ones as their stability asks for.
+/// Takes steps of an integrator on the system's clock, and retries one that fails with half its length. Explicit
+/// schemes fill a step with as many shorter ones as their stability asks for.
 class StepControl {
 public:
-    /// The references must outlive this object.
-    StepControl(Phase& phase, Integrator& integrator, const StepOptions& options)
-        : phase_(phase), integrator_(integrator), options_(options), dt_(options.longest), clock_(options.start),
-          moves_(!std::isnan(options.start) && phase.motion_end() > 0)
-    {
-        if (moves_) phase_.place(clock_);
-    }
+    /// The first step starts at the clock's time, where bodies are put. The references must outlive this object.
+    StepControl(Phase& phase, Integrator& integrator, const StepOptions& options);
 
-    /// Takes one step of at most `room` seconds.
+    /// Takes one step of at most `room` seconds; the clock goes on by its length.
     /// @param accurate  a step whose Newton iterations do not reach their tolerance counts as failed
-    /// @returns the length of the accepted step [s]
+    /// @returns the length of the accepted step [s]; 0 if it was broken off, with all as it was before
     /// @throws DivergenceError when not even a thousandth of the longest step succeeds; the last good state is kept
     /// @throws UnstableStepError if the longest step is unstable and that is to be refused
     double advance(double room, const NewtonOptions& options, bool accurate);
@@ -70,30 +64,38 @@ public:
     int retries() const { return retries_; }
     double stable_step() const { return limit_; }  ///< At the last step [s].
     double shortest() const { return shortest_; }  ///< Of the steps that the last accepted one was made of [s].
+    const Integrator& integrator() const { return integrator_; }
 
 private:
-    struct Saved {
-        std::vector<real> pos, vel, anchor, limit, hinge_anchor, pairs;
-        std::vector<std::vector<real>> history;
+    /// What one call of advance covers, with one step or, where explicit schemes fill it, with several.
+    struct Cover {
+        double begin = 0, length = 0;                     ///< [s]
+        double done = 0;                                  ///< Accepted so far [s].
+        double first = 0;                                 ///< Length of its first step [s].
+        double kinetic_before = 0, potential_before = 0;  ///< Where the integrator may gain energy [J].
     };
+    /// What becomes of a step that was tried.
+    enum class Verdict { accepted, failed, inaccurate, broken_off };
 
-    void keep(Saved& saved);
-    void restore(const Saved& saved);
+    void return_to(const SolverSnapshot& place, double time);
+    Cover start(double room);
     double next_step(double left, bool begins);
-    bool attempt(double dt, const NewtonOptions& options, bool accurate);
+    Verdict try_step(const Cover& cover, double dt, const NewtonOptions& options, bool accurate);
+    bool solve(double dt, const NewtonOptions& options, bool accurate);
+    bool fills() const { return integrator_.info().is_explicit; }
+    bool adapts() const { return options_.adaptive && integrator_.info().has_error_estimate(); }
+    bool ends(const Cover& cover, double dt) const;
     bool cloth_is_clear();
     bool too_inaccurate(double dt);
     bool passed_into_body(bool last);
-    bool keeps_energy(double span, double kinetic_before, double potential_before);
-    void give_up();
+    bool keeps_energy(const Cover& cover);
     void shrink(double dt);
 
-    Phase& phase_;
+    System& system_;
     Integrator& integrator_;
     StepOptions options_;
     double dt_;
-    double clock_;  ///< At the end of the last accepted step [s].
-    bool moves_;    ///< Bodies or pins.
+    bool moves_;  ///< Bodies or held vertices.
     double taken_ = 0, shortest_ = 0;
     double floor_ = 0;  ///< Steps below it mean that the run has diverged [s].
     double limit_ = std::numeric_limits<double>::infinity();
@@ -101,7 +103,7 @@ private:
     double highest_kinetic_ = 0, lowest_potential_ = 0;               ///< Before any step so far [J].
     int retries_ = 0;
     NewtonReport report_;
-    Saved start_, last_;
+    SolverSnapshot start_, last_;
     std::vector<real> looked_from_;  ///< Positions at the last look for ways into bodies.
 };
 

@@ -1,26 +1,9 @@
 #include "host/solver/terms/active_terms.hpp"
 
-#include "host/parallel/launch.hpp"
+#include "host/solver/state/vectors.hpp"
 #include "host/solver/terms/traffic.hpp"
 
 namespace selvage {
-namespace {
-
-// While it exists, what sleeps takes part as well.
-class WholeCloth {
-public:
-    explicit WholeCloth(AwakeItems& awake) : awake_(awake), all_(awake.all) { awake_.all = true; }
-    ~WholeCloth() { awake_.all = all_; }
-    WholeCloth(const WholeCloth&) = delete;
-    WholeCloth& operator=(const WholeCloth&) = delete;
-
-private:
-    AwakeItems& awake_;
-    bool all_;
-};
-
-}  // namespace
-
 ActiveTerms::ActiveTerms(State& state, const Params& params, Profile& profile)
     : state_(state), params_(params), profile_(profile)
 {
@@ -34,13 +17,13 @@ ActiveTerms::ActiveTerms(State& state, const Params& params, Profile& profile)
 
 // Runs one part of a term, with what it takes and moves in the profile.
 template <class Work>
-auto ActiveTerms::timed(const Term& term, std::string_view name, std::int64_t bytes, const Work& work)
+auto ActiveTerms::timed(const Term& term, std::string_view name, std::int64_t bytes, const Work& work) const
 {
     const int whole = term.item_count(state_.size), items = items_of(state_, term.per).count;
     return profile_.timed(name, items, items == whole ? bytes : bytes * items / whole, work);
 }
 
-void ActiveTerms::evaluate_forces(bool dissipative)
+void ActiveTerms::sum_forces(bool dissipative) const
 {
     const TraceScope scope("forces");
     clear_forces(state_);
@@ -67,10 +50,7 @@ void ActiveTerms::evaluate_stiffness(bool projected, double dissipative_scale)
     if (dissipative_scale > 0 && !dissipative_.empty()) {
         for (const Term* term : dissipative_) add(term);
         // Dissipative terms act on vertices only.
-        for_each_item(items_of(state_, ItemKind::vertex),
-                      [k = state_.vertex_stiffness.data(), scale = block_real(dissipative_scale)](int v) {
-                          for (int i = 9 * v; i < 9 * v + 9; ++i) k[i] *= scale;
-                      });
+        scale_blocks(state_.vertex_stiffness, block_real(dissipative_scale), items_of(state_, ItemKind::vertex));
     }
     for (const Term* term : conservative_) add(term);
     add_pair_diagonals(state_);
@@ -91,11 +71,17 @@ double ActiveTerms::energy()
     return total;
 }
 
+void ActiveTerms::conservative_force(std::vector<real>& force) const
+{
+    std::swap(state_.force, force);
+    sum_forces(false);
+    std::swap(state_.force, force);
+}
+
 double ActiveTerms::potential_energy() const
 {
-    const WholeCloth whole(state_.awake);
     double total = 0;
-    for (const Term* term : conservative_) total += term->energy(state_, params_);
+    for (const Term* term : conservative_) total += term->energy_over(state_, params_, all_items_of(state_, term->per));
     return total;
 }
 
@@ -106,22 +92,14 @@ double ActiveTerms::dissipation() const
     return total;
 }
 
-double ActiveTerms::kinetic_energy() const
-{
-    const int vs = state_.size.vertex_stride;
-    return 0.5 * sum_items(state_.size.vertex_count, [this, vs](int v) {
-               double squared = 0;
-               for (int c = 0; c < 3; ++c) squared += state_.vel[c * vs + v] * state_.vel[c * vs + v];
-               return state_.inv_mass[v] == 0 ? 0.0 : state_.mass[v] * squared;
-           });
-}
+double ActiveTerms::kinetic_energy() const { return 0.5 * mass_square(state_, state_.vel); }
 
-double ActiveTerms::energy_of(std::string_view name) const
+double ActiveTerms::energy_of(EnergyFamily family) const
 {
-    const WholeCloth whole(state_.awake);
+    double total = 0;
     for (const Term* term : conservative_)
-        if (term->name == name) return term->energy(state_, params_);
-    return 0;
+        if (term->family == family) total += term->energy_over(state_, params_, all_items_of(state_, term->per));
+    return total;
 }
 
 }  // namespace selvage

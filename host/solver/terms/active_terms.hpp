@@ -17,7 +17,7 @@ public:
     ActiveTerms(State& state, const Params& params, Profile& profile);
 
     /// Writes the net force of all terms to state.force [N]. @param dissipative  with those that depend on velocity
-    void evaluate_forces(bool dissipative);
+    void evaluate_forces(bool dissipative) { sum_forces(dissipative); }
     /// Writes the stiffness of all terms to the element slots [N/m].
     /// @param dissipative_scale  times d2R/dv2 is added for the dissipative terms [1/s]; 0: without them
     void evaluate_stiffness(bool projected, double dissipative_scale);
@@ -26,15 +26,23 @@ public:
 
     /// Of all conservative terms [J], of what is awake; counted in the profile.
     double energy();
-    double potential_energy() const;                ///< Of the whole cloth, outside the profile [J].
-    double dissipation() const;                     ///< R of all dissipative terms [W].
-    double kinetic_energy() const;                  ///< [J]
-    double energy_of(std::string_view term) const;  ///< Energy of one term [J]; 0 if inactive.
+    double dissipation() const;  ///< R of all dissipative terms, of what is awake [W].
     bool dissipates() const { return !dissipative_.empty(); }
+
+    // Queries. They write nothing to the state but what stages derive from its positions and the elements' slots, both
+    // of which every evaluation fills before it reads them.
+
+    /// Writes the net force of the conservative terms on what is awake [N]; state.force stays as it is.
+    /// @param force  planes like pos
+    void conservative_force(std::vector<real>& force) const;
+    double potential_energy() const;              ///< Of the whole cloth, outside the profile [J].
+    double energy_of(EnergyFamily family) const;  ///< Likewise, of the terms of one family [J].
+    double kinetic_energy() const;                ///< [J]
 
 private:
     template <class Work>
-    auto timed(const Term& term, std::string_view name, std::int64_t bytes, const Work& work);
+    auto timed(const Term& term, std::string_view name, std::int64_t bytes, const Work& work) const;
+    void sum_forces(bool dissipative) const;
 
     State& state_;
     const Params& params_;

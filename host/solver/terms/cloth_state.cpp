@@ -5,8 +5,8 @@
 #include "host/solver/state/hysteresis.hpp"
 #include "host/solver/state/plate.hpp"
 #include "host/solver/state/rest_state.hpp"
-#include "host/solver/terms/rules.hpp"
 #include "host/solver/terms/terms.hpp"
+#include "host/solver/terms/velocity_filters.hpp"
 
 namespace selvage {
 
@@ -15,7 +15,7 @@ FieldSet required_fields(const Params& params)
     FieldSet fields = field_set({Field::pos, Field::vel, Field::mass, Field::inv_mass, Field::force});
     for (const Term& term : all_terms())
         if (term.is_active(params)) fields |= term.fields;
-    for (const Rule& rule : all_rules())
+    for (const VelocityFilter& rule : all_velocity_filters())
         if (rule.is_active(params)) fields |= rule.fields;
 #define GATHER_FIELDS(kind, corners)                  \
     if (fields[std::size_t(Field::kind##_force)]) {   \

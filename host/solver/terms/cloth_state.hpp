@@ -7,8 +7,8 @@
 namespace selvage {
 
 /// Returns the fields a scene with these parameters needs: positions, masses, and the union over its active
-/// terms and rules with their gather lists. A term whose strengths are all zero adds no field here and no launch to a
-/// step.
+/// terms and velocity filters with their gather lists. A term whose strengths are all zero adds no field here and no
+/// launch to a step.
 FieldSet required_fields(const Params& params);
 
 /// The springs that a phase with these parameters runs on.

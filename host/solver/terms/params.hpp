@@ -1,24 +1,24 @@
 #pragma once
-#include "kernels/rules.h"
 #include "kernels/terms.h"
+#include "kernels/velocity_filters.h"
 
 namespace selvage {
 
 /// The parameters of every term and rule, as `params.<term>.<parameter>`, in SI units. All strengths are zero at first.
 struct Params {
 #define PARAM(name, initial, unit, meaning) real name = real(initial);
-#define TERM(term, per, nature, stage) \
-    struct {                           \
-        term##_PARAMS(PARAM, PARAM)    \
+#define TERM(term, per, nature, stage, family) \
+    struct {                                   \
+        term##_PARAMS(PARAM, PARAM)            \
     } term;
     TERMS(TERM)
 #undef TERM
-#define RULE(rule, per)             \
+#define VELOCITY_FILTER(rule, per)  \
     struct {                        \
         rule##_PARAMS(PARAM, PARAM) \
     } rule;
-    RULES(RULE)
-#undef RULE
+    VELOCITY_FILTERS(VELOCITY_FILTER)
+#undef VELOCITY_FILTER
 #undef PARAM
 };
 

@@ -4,6 +4,8 @@
 
 #include "host/parallel/launch.hpp"
 #include "host/solver/state/pair_list.hpp"
+#include "host/solver/state/vectors.hpp"
+#include "host/solver/terms/bound_args.hpp"
 #include "kernels/stages/gather.h"
 
 namespace selvage {
@@ -13,16 +15,14 @@ constexpr std::nullptr_t no_stage = nullptr;
 
 // One traits struct per line of kernels/terms.h. The macros below only list and bind; the logic is in templates.
 #define LIST_FIELD(name) Field::name,
-#define SET_READ(name) a.name = state.name.data();
-#define SET_ADD(name) a.name = state.name.data();
-#define SET_PARAM(name, initial, unit, meaning) a.name = values.name;
 #define OR_NON_ZERO(name, initial, unit, meaning) || values.name != 0
 #define IGNORE(name, initial, unit, meaning)
-#define TERM(term, kind, nature_of_term, stage_before)                                                    \
+#define TERM(term, kind, nature_of_term, stage_before, family_of_term)                                    \
     struct term##_traits {                                                                                \
         static constexpr std::string_view name = #term;                                                   \
         static constexpr ItemKind per = ItemKind::kind;                                                   \
         static constexpr Nature nature = Nature::nature_of_term;                                          \
+        static constexpr EnergyFamily family = EnergyFamily::family_of_term;                              \
         static FieldSet fields() { return field_set({term##_FIELDS(LIST_FIELD, LIST_FIELD)}); }           \
         static constexpr auto stage = stage_before;                                                       \
         static constexpr auto force = term##_force;                                                       \
@@ -31,30 +31,16 @@ constexpr std::nullptr_t no_stage = nullptr;
         static int count(const mesh_sizes& size) { return size.kind##_count; }                            \
         static const auto& values(const Params& params) { return params.term; }                           \
         static bool any_strength(const auto& values) { return false term##_PARAMS(OR_NON_ZERO, IGNORE); } \
-        static void bind(term##_args& a, State& state, const auto& values)                                \
-        {                                                                                                 \
-            a.size = state.size;                                                                          \
-            term##_FIELDS(SET_READ, SET_ADD) term##_PARAMS(SET_PARAM, SET_PARAM)                          \
-        }                                                                                                 \
         using Args = term##_args;                                                                         \
     };
 TERMS(TERM)
 #undef TERM
 
 template <class Traits>
-typename Traits::Args bound(State& state, const Params& params, bool projected = false)
-{
-    typename Traits::Args args;
-    args.mode.projected = projected;
-    Traits::bind(args, state, Traits::values(params));
-    return args;
-}
-
-template <class Traits>
 void run_stage(State& state, const Params& params, const Items& items)
 {
     if constexpr (!std::is_null_pointer_v<decltype(Traits::stage)>)
-        launch<Traits::stage>(items, bound<Traits>(state, params));
+        launch<Traits::stage>(items, bound<typename Traits::Args>(state, params));
 }
 
 template <class Traits>
@@ -64,6 +50,7 @@ Term describe()
     return {.name = Traits::name,
             .per = Traits::per,
             .nature = Traits::nature,
+            .family = Traits::family,
             .fields = fields,
             .bytes_per_item = bytes_per_item(fields, kind_name(Traits::per)),
             .is_active = [](const Params& params) { return Traits::any_strength(Traits::values(params)); },
@@ -72,59 +59,48 @@ Term describe()
                 [](State& state, const Params& params) {
                     const Items items = items_of(state, Traits::per);
                     run_stage<Traits>(state, params, items);
-                    launch<Traits::force>(items, bound<Traits>(state, params));
+                    launch<Traits::force>(items, bound<typename Traits::Args>(state, params));
                 },
             .add_stiffness =
                 [](State& state, const Params& params, bool projected) {
                     const Items items = items_of(state, Traits::per);
                     run_stage<Traits>(state, params, items);
-                    launch<Traits::stiffness>(items, bound<Traits>(state, params, projected));
+                    launch<Traits::stiffness>(items, bound<typename Traits::Args>(state, params, projected));
                 },
-            .energy =
-                [](State& state, const Params& params) {
-                    const Items items = items_of(state, Traits::per);
+            .energy_over =
+                [](State& state, const Params& params, const Items& items) {
                     run_stage<Traits>(state, params, items);
-                    return launch_sum<Traits::energy>(items, bound<Traits>(state, params));
+                    return launch_sum<Traits::energy>(items, bound<typename Traits::Args>(state, params));
                 }};
-}
-
-// Planes of a field of which only some items are to be cleared.
-void clear_items(std::vector<real>& field, int stride, const Items& items)
-{
-    const int planes = stride > 0 ? int(field.size()) / stride : 0;
-    for_each_item(items, [to = field.data(), planes, stride](int item) {
-        for (int p = 0; p < planes; ++p) to[p * stride + item] = 0;
-    });
-}
-
-// The same for blocks of nine.
-void clear_items(std::vector<block_real>& field, int stride, const Items& items)
-{
-    const int blocks = stride > 0 ? int(field.size()) / (9 * stride) : 0;
-    for_each_item(items, [to = field.data(), blocks, stride](int item) {
-        for (int b = 0; b < blocks; ++b)
-            for (int c = 0; c < 9; ++c) to[9 * (b * stride + item) + c] = 0;
-    });
 }
 
 template <class Number>
 void clear_slots(std::vector<Number>& field, int stride, const Items& items)
 {
     if (items.list)
-        clear_items(field, stride, items);
+        clear(field, stride, items);
     else
-        for_each_item(int(field.size()), [to = field.data()](int i) { to[i] = 0; });
+        clear(field);
 }
 
 }  // namespace
 
+Items all_items_of(const State& state, ItemKind kind)
+{
+    const mesh_sizes& size = state.size;
+    const int counts[] = {size.vertex_count, size.face_count,   size.hinge_count,
+                          size.stitch_count, size.spring_count, size.pair_count};
+    return {counts[int(kind)]};
+}
+
 Items items_of(const State& state, ItemKind kind)
 {
     const AwakeItems& awake = state.awake;
+    if (awake.all) return all_items_of(state, kind);
     switch (kind) {
 #define AWAKE(kind)      \
     case ItemKind::kind: \
-        return awake.all ? Items{state.size.kind##_count} : Items{int(awake.kind.size()), awake.kind.data()};
+        return {int(awake.kind.size()), awake.kind.data()};
         AWAKE(vertex)
         AWAKE(face)
         AWAKE(hinge)
@@ -134,12 +110,12 @@ Items items_of(const State& state, ItemKind kind)
         case ItemKind::pair:
             break;  // few, and between those awake and those asleep
     }
-    return {state.size.pair_count};
+    return all_items_of(state, kind);
 }
 
 std::span<const Term> all_terms()
 {
-#define TERM(term, per, nature, stage) describe<term##_traits>(),
+#define TERM(term, per, nature, stage, family) describe<term##_traits>(),
     static const Term terms[] = {TERMS(TERM)};
 #undef TERM
     return terms;

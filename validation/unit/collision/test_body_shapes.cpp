@@ -29,13 +29,13 @@ TEST_CASE("bodies of a scene are placed as it says, and impossible ones are refu
 
     mesh.faces = {{0, 1, 3}};
     CHECK_THROWS_AS(make_body(body_scene, scene, 0, mesh), InputError);
-    body_scene.shape = "plane";
+    body_scene.shape = BodyShape::plane;
     body_scene.normal = Vec3::Zero();
     CHECK_THROWS_AS(make_body(body_scene, scene, 0), InputError);
-    body_scene.shape = "capsule";
+    body_scene.shape = BodyShape::capsule;
     body_scene.end = body_scene.center;
     CHECK_THROWS_AS(make_body(body_scene, scene, 0), InputError);
-    for (const char* shape : {"sphere", "cylinder"}) {
+    for (const BodyShape shape : {BodyShape::sphere, BodyShape::cylinder}) {
         body_scene.shape = shape;
         CHECK(is_closed(make_body(body_scene, scene, 0).mesh));
     }

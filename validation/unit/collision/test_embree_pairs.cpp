@@ -2,7 +2,7 @@
 #include <set>
 
 #include "bench/suites/embree_pairs.hpp"
-#include "host/solver/contact/cloth_contact.hpp"
+#include "host/solver/contact/cloth_surface.hpp"
 #include "validation/measure/crumpled_sheets.hpp"
 #include "validation/unit/catch.hpp"
 

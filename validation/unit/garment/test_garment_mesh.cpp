@@ -1,4 +1,4 @@
-// Outlines, panel meshes, seams and transfers between resolutions of garments.
+// Outlines, panel meshes, seams and prolongations between resolutions of garments.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "host/garment/outline.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/mesh/panel_mesh.hpp"
-#include "host/model/transfer.hpp"
+#include "host/model/prolongation.hpp"
 #include "io/errors.hpp"
 #include "validation/unit/catch.hpp"
 
@@ -123,13 +123,13 @@ std::string message_of(const Pattern& pattern, double edge_length = 0.05)
     return "";
 }
 
-std::vector<double> interpolate(const Transfer& transfer, const std::vector<double>& values)
+std::vector<double> interpolate(const Prolongation& prolongation, const std::vector<double>& values)
 {
     std::vector<double> result;
-    for (std::size_t row = 0; row + 1 < transfer.offset.size(); ++row) {
+    for (std::size_t row = 0; row + 1 < prolongation.offset.size(); ++row) {
         double sum = 0;
-        for (int k = transfer.offset[row]; k < transfer.offset[row + 1]; ++k)
-            sum += transfer.weight[k] * values[transfer.column[k]];
+        for (int k = prolongation.offset[row]; k < prolongation.offset[row + 1]; ++k)
+            sum += prolongation.weight[k] * values[prolongation.column[k]];
         result.push_back(sum);
     }
     return result;
@@ -416,7 +416,7 @@ TEST_CASE("appended cloths keep their panels, seams and pins")
     SheetScene sheet;
     sheet.resolution = 3;
     PinsScene pins;
-    pins.sheet = "top_corners";
+    pins.sheet = PinGroup::top_corners;
     Cloth both = make_sheet(sheet, pins, "scene.toml", "sheet[0]");
     append_cloth(both, garment);
     append_cloth(both, make_sheet(sheet, pins, "scene.toml", "sheet[1]"));
@@ -431,24 +431,24 @@ TEST_CASE("appended cloths keep their panels, seams and pins")
                 CHECK((vertex >= panel.first_vertex && vertex < panel.first_vertex + panel.vertex_count));
 }
 
-TEST_CASE("a transfer reproduces linear functions inside polygonal panels and its rows sum to one")
+TEST_CASE("a prolongation reproduces linear functions inside polygonal panels and its rows sum to one")
 {
     const Pattern polygons =
         pattern_of({rectangle("square", 0.5, 0.3),
                     polygon_panel("dart", {{0, 0}, {0.2, 0}, {0.22, 0.15}, {0.24, 0}, {0.4, 0}, {0.3, 0.4}})});
     const Cloth coarse = assemble(polygons, 0.05), fine = assemble(polygons, 0.017);
-    const Transfer transfer = make_transfer(coarse, fine);
-    REQUIRE(transfer.offset.size() == fine.positions.size() + 1);
+    const Prolongation prolongation = make_prolongation(coarse, fine);
+    REQUIRE(prolongation.offset.size() == fine.positions.size() + 1);
     std::vector<double> values;
     for (const Vec2& point : coarse.panel_coordinates) values.push_back(3 * point.x() - 2 * point.y() + 1);
-    const std::vector<double> result = interpolate(transfer, values);
+    const std::vector<double> result = interpolate(prolongation, values);
     for (std::size_t i = 0; i < result.size(); ++i)
         CHECK(result[i] ==
               Approx(3 * fine.panel_coordinates[i].x() - 2 * fine.panel_coordinates[i].y() + 1).margin(1e-8));
 
     const Pattern curved = pattern_of({curved_panel("sleeve")});
     const Cloth coarse_sleeve = assemble(curved, 0.06), fine_sleeve = assemble(curved, 0.008);
-    const Transfer sleeve = make_transfer(coarse_sleeve, fine_sleeve);
+    const Prolongation sleeve = make_prolongation(coarse_sleeve, fine_sleeve);
     for (const double sum : interpolate(sleeve, std::vector<double>(coarse_sleeve.positions.size(), 1.0)))
         CHECK(sum == Approx(1));
     CHECK(*std::min_element(sleeve.weight.begin(), sleeve.weight.end()) >= 0);
@@ -457,36 +457,36 @@ TEST_CASE("a transfer reproduces linear functions inside polygonal panels and it
     const std::vector<double> moved = interpolate(sleeve, across);
     for (std::size_t i = 0; i < moved.size(); ++i)
         CHECK(std::abs(moved[i] - fine_sleeve.panel_coordinates[i].x()) < 0.01);
-    CHECK_THROWS_AS(make_transfer(coarse, fine_sleeve), std::invalid_argument);
+    CHECK_THROWS_AS(make_prolongation(coarse, fine_sleeve), std::invalid_argument);
 }
 
-TEST_CASE("both sides of a seam get the same transfer weights from paired coarse vertices")
+TEST_CASE("both sides of a seam get the same prolongation weights from paired coarse vertices")
 {
     Pattern pattern = pattern_of({rectangle("left", 0.3, 0.5), curved_panel("right")});
     pattern.stitches.push_back({{0, 1}, {1, 2}, false});
     const Cloth coarse = assemble(pattern, 0.05), fine = assemble(pattern, 0.012);
-    const Transfer transfer = make_transfer(coarse, fine);
+    const Prolongation prolongation = make_prolongation(coarse, fine);
     std::map<int, int> partner;
     for (const auto& [a, b] : coarse.seam_pairs) partner[a] = b;
     for (const auto& [a, b] : fine.seam_pairs) {
         std::map<int, double> from_a, from_b;
-        for (int k = transfer.offset[a]; k < transfer.offset[a + 1]; ++k)
-            from_a[partner.at(transfer.column[k])] = transfer.weight[k];
-        for (int k = transfer.offset[b]; k < transfer.offset[b + 1]; ++k)
-            from_b[transfer.column[k]] = transfer.weight[k];
+        for (int k = prolongation.offset[a]; k < prolongation.offset[a + 1]; ++k)
+            from_a[partner.at(prolongation.column[k])] = prolongation.weight[k];
+        for (int k = prolongation.offset[b]; k < prolongation.offset[b + 1]; ++k)
+            from_b[prolongation.column[k]] = prolongation.weight[k];
         for (const auto& [column, weight] : from_a) CHECK(from_b[column] == Approx(weight).margin(1e-9));
     }
 }
 
-TEST_CASE("transfers have no weights that only rounding has left")
+TEST_CASE("prolongations have no weights that only rounding has left")
 {
     const Pattern pattern = pattern_of({curved_panel("panel")});
-    const Transfer transfer = make_transfer(assemble(pattern, 0.05), assemble(pattern, 0.012));
-    for (std::size_t row = 0; row + 1 < transfer.offset.size(); ++row) {
+    const Prolongation prolongation = make_prolongation(assemble(pattern, 0.05), assemble(pattern, 0.012));
+    for (std::size_t row = 0; row + 1 < prolongation.offset.size(); ++row) {
         double sum = 0;
-        for (int k = transfer.offset[row]; k < transfer.offset[row + 1]; ++k) {
-            CHECK(transfer.weight[k] > 1e-7);
-            sum += transfer.weight[k];
+        for (int k = prolongation.offset[row]; k < prolongation.offset[row + 1]; ++k) {
+            CHECK(prolongation.weight[k] > 1e-7);
+            sum += prolongation.weight[k];
         }
         CHECK(sum == Approx(1).epsilon(1e-14));
     }

@@ -1,4 +1,4 @@
-// Plain sheets of cloth: their meshes, pins and transfers between resolutions.
+// Plain sheets of cloth: their meshes, pins and prolongations between resolutions.
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "host/garment/outline.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/mesh/sheet_families.hpp"
-#include "host/model/transfer.hpp"
+#include "host/model/prolongation.hpp"
 #include "io/errors.hpp"
 #include "validation/unit/catch.hpp"
 
@@ -30,7 +30,7 @@ TEST_CASE("sheets have the vertices, size and place that their scene says")
     sheet.width = 0.8;
     sheet.height = 0.4;
     sheet.rotation = Vec3(90, 0, 0);
-    for (const char* family : {"alternating", "same_diagonal", "irregular"}) {
+    for (const MeshFamily family : {MeshFamily::alternating, MeshFamily::same_diagonal, MeshFamily::irregular}) {
         sheet.mesh_family = family;
         const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
         CHECK(cloth.positions.size() == 45);
@@ -41,13 +41,13 @@ TEST_CASE("sheets have the vertices, size and place that their scene says")
         CHECK((cloth.positions[0] - Vec3(-0.4, 0, 0.8)).norm() < 1e-12);
         CHECK((cloth.positions[44] - Vec3(0.4, 0, 1.2)).norm() < 1e-12);
     }
-    sheet.shape = "disc";
+    sheet.shape = SheetShape::disc;
     sheet.radius = 0.15;
     sheet.resolution = 31;
     const Cloth disc = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
     CHECK(disc.panels[0].rest_area == Approx(std::numbers::pi * 0.15 * 0.15).epsilon(0.005));
     for (const Face& face : disc.faces) CHECK(face_area(disc, face) > 0.1 * 0.01 * 0.01);
-    sheet.shape = "circle";
+    sheet.shape = SheetShape::mesh;
     CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), contains_text("sheet[0].shape"));
 }
 
@@ -57,25 +57,25 @@ TEST_CASE("every mesh family fills its rectangle or disc with faces that look up
     sheet.resolution = 10;
     sheet.width = 0.8;
     sheet.height = 0.4;
-    for (const std::string& family : rectangle_families()) {
-        INFO(family);
+    for (const MeshFamily family : rectangle_families()) {
+        INFO(word_of(family));
         sheet.mesh_family = family;
         const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
         CHECK(cloth.panels[0].rest_area == Approx(0.32));
         CHECK(cloth.panels[0].rest_boundary == Approx(2.4));
         for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
     }
-    sheet.shape = "disc";
+    sheet.shape = SheetShape::disc;
     sheet.radius = 0.15;
     sheet.resolution = 21;
-    for (const std::string& family : disc_families()) {
-        INFO(family);
+    for (const MeshFamily family : disc_families()) {
+        INFO(word_of(family));
         sheet.mesh_family = family;
         const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
         CHECK(cloth.panels[0].rest_area == Approx(std::numbers::pi * 0.15 * 0.15).epsilon(0.01));
         for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
     }
-    sheet.mesh_family = "cross";
+    sheet.mesh_family = MeshFamily::cross;
     CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), contains_text("sheet[0].mesh_family"));
 }
 
@@ -83,23 +83,23 @@ TEST_CASE("pins hold the vertices that their word names")
 {
     SheetScene sheet;
     sheet.resolution = 4;  // rows 0-3, 4-7, 8-11, 12-15 from the bottom
-    const auto pinned = [&](const std::string& word, const std::string& list = "") {
+    const auto pinned = [&](PinGroup group, const std::string& list = "") {
         PinsScene pins;
-        pins.sheet = word;
+        pins.sheet = group;
         pins.vertices = list;
         return make_sheet(sheet, pins, "scene.toml", "sheet[0]").pinned;
     };
-    CHECK(pinned("none").empty());
-    CHECK(pinned("corners") == std::vector<int>{0, 3, 12, 15});
-    CHECK(pinned("top_corners") == std::vector<int>{12, 15});
-    CHECK(pinned("top_edge") == std::vector<int>{12, 13, 14, 15});
-    CHECK(pinned("left_edge") == std::vector<int>{0, 4, 8, 12});
-    CHECK(pinned("two_rows") == std::vector<int>{0, 1, 4, 5, 8, 9, 12, 13});
-    CHECK(pinned("top_corners", "7, 2,15") == std::vector<int>{2, 7, 12, 15});
-    CHECK_THROWS_WITH(pinned("none", "16"), contains_text("pins.vertices") && contains_text("from 0 to 15"));
-    CHECK_THROWS_WITH(pinned("none", "1,x"), contains_text("pins.vertices"));
-    sheet.mesh_family = "irregular";
-    CHECK(pinned("left_edge") == std::vector<int>{0, 4, 8, 12});
+    CHECK(pinned(PinGroup::none).empty());
+    CHECK(pinned(PinGroup::corners) == std::vector<int>{0, 3, 12, 15});
+    CHECK(pinned(PinGroup::top_corners) == std::vector<int>{12, 15});
+    CHECK(pinned(PinGroup::top_edge) == std::vector<int>{12, 13, 14, 15});
+    CHECK(pinned(PinGroup::left_edge) == std::vector<int>{0, 4, 8, 12});
+    CHECK(pinned(PinGroup::two_rows) == std::vector<int>{0, 1, 4, 5, 8, 9, 12, 13});
+    CHECK(pinned(PinGroup::top_corners, "7, 2,15") == std::vector<int>{2, 7, 12, 15});
+    CHECK_THROWS_WITH(pinned(PinGroup::none, "16"), contains_text("pins.vertices") && contains_text("from 0 to 15"));
+    CHECK_THROWS_WITH(pinned(PinGroup::none, "1,x"), contains_text("pins.vertices"));
+    sheet.mesh_family = MeshFamily::irregular;
+    CHECK(pinned(PinGroup::left_edge) == std::vector<int>{0, 4, 8, 12});
 }
 
 TEST_CASE("a sheet from a mesh takes its rest shape from texture coordinates, or its own plane if it is flat")
@@ -124,21 +124,21 @@ TEST_CASE("a sheet from a mesh takes its rest shape from texture coordinates, or
     CHECK_THROWS_WITH(sheet_from_mesh(mesh, folded, sheet, {}, "scene.toml", "sheet[1]"), contains_text("turned over"));
 }
 
-TEST_CASE("a transfer between sheets of different resolution reproduces linear functions")
+TEST_CASE("a prolongation between sheets of different resolution reproduces linear functions")
 {
     SheetScene sheet;
     sheet.resolution = 5;
-    sheet.mesh_family = "irregular";
+    sheet.mesh_family = MeshFamily::irregular;
     const Cloth coarse = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
     sheet.resolution = 18;
     const Cloth fine = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
     std::vector<double> values;
     for (const Vec2& point : coarse.panel_coordinates) values.push_back(point.x() + 2 * point.y());
-    const Transfer transfer = make_transfer(coarse, fine);
+    const Prolongation prolongation = make_prolongation(coarse, fine);
     for (std::size_t i = 0; i < fine.positions.size(); ++i) {
         double sum = 0;
-        for (int k = transfer.offset[i]; k < transfer.offset[i + 1]; ++k)
-            sum += transfer.weight[k] * values[transfer.column[k]];
+        for (int k = prolongation.offset[i]; k < prolongation.offset[i + 1]; ++k)
+            sum += prolongation.weight[k] * values[prolongation.column[k]];
         CHECK(sum == Approx(fine.panel_coordinates[i].x() + 2 * fine.panel_coordinates[i].y()).margin(1e-9));
     }
 }

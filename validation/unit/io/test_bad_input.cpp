@@ -72,7 +72,7 @@ void check_patterns(const std::vector<BadText>& patterns)
     const ScratchFolder folder;
     for (const BadText& bad : patterns) {
         const std::string path = folder.write("bad.json", bad.text);
-        const std::string message = message_of([&] { read_pattern_json(path, GarmentScene{}); });
+        const std::string message = message_of([&] { read_pattern_json(path, PatternConventions{}); });
         check_message(message, {"bad.json", "found ", "expected "});
         check_message(message, bad.message);
     }
@@ -99,7 +99,7 @@ void check_objs(const std::vector<BadText>& objs)
     for (const BadText& bad : objs) {
         const std::string path = folder.write("bad.obj", bad.text);
         std::vector<Vec2> texture;
-        const std::string message = message_of([&] { read_obj(path, "m", "z", &texture); });
+        const std::string message = message_of([&] { read_obj(path, LengthUnit::m, Axis::z, &texture); });
         check_message(message, {"bad.obj", "found ", "expected "});
         check_message(message, bad.message);
     }
@@ -313,7 +313,7 @@ TEST_CASE("bad OBJ files are refused with the line")
         {points + "vt 0 0\nf 1/1 2/1 3\n", {":5:", "vertex 3", "texture"}},
         {points + "v 1 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 2/1 4/1 3/2\n", {":8:", "vertex 3", "one per vertex"}},
     });
-    check_message(message_of([] { read_obj("nowhere.obj", "m", "z"); }), {"nowhere.obj", "no such file"});
+    check_message(message_of([] { read_obj("nowhere.obj", LengthUnit::m, Axis::z); }), {"nowhere.obj", "no such file"});
 }
 
 TEST_CASE("bodies that are no closed solid of plausible size are refused")
@@ -321,15 +321,17 @@ TEST_CASE("bodies that are no closed solid of plausible size are refused")
     const ScratchFolder folder;
     const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
     const std::string solid = points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-    const auto refused = [&](const std::string& text, const std::string& unit) {
+    const auto refused = [&](const std::string& text, LengthUnit unit) {
         const std::string path = folder.write("body.obj", text);
-        return message_of([&] { require_closed_body(read_obj(path, unit, "z"), path); });
+        return message_of([&] { require_closed_body(read_obj(path, unit, Axis::z), path); });
     };
-    CHECK(refused(solid, "m") == "no InputError");
-    check_message(refused(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\n", "m"), {"body.obj", "holes", "3 open edges", "at ("});
-    check_message(refused(solid, "mm"), {"body.obj", "0.001 m", "0.05 to 5 m", "unit"});
-    check_message(refused("v 0 0 170\n" + solid.substr(8), "m"), {"170 m", "0.05 to 5 m", "unit = \"cm\""});
-    check_message(refused(points + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", "m"), {"inward", "counter-clockwise"});
-    check_message(refused(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n", "m"), {"disagree", "3 edges"});
-    check_message(refused(solid + "f 2 1 1\n", "m"), {"body.obj:9:", "without area", "m^2"});
+    CHECK(refused(solid, LengthUnit::m) == "no InputError");
+    check_message(refused(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\n", LengthUnit::m),
+                  {"body.obj", "holes", "3 open edges", "at ("});
+    check_message(refused(solid, LengthUnit::mm), {"body.obj", "0.001 m", "0.05 to 5 m", "unit"});
+    check_message(refused("v 0 0 170\n" + solid.substr(8), LengthUnit::m), {"170 m", "0.05 to 5 m", "unit = \"cm\""});
+    check_message(refused(points + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", LengthUnit::m),
+                  {"inward", "counter-clockwise"});
+    check_message(refused(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n", LengthUnit::m), {"disagree", "3 edges"});
+    check_message(refused(solid + "f 2 1 1\n", LengthUnit::m), {"body.obj:9:", "without area", "m^2"});
 }

@@ -35,7 +35,7 @@ usemtl white
 f -4 -3 -2 -1
 )";
 
-TriangleMesh read_text(const std::string& text, const std::string& unit = "m", const std::string& up = "z",
+TriangleMesh read_text(const std::string& text, LengthUnit unit = LengthUnit::m, Axis up = Axis::z,
                        std::vector<Vec2>* texture = nullptr)
 {
     const ScratchFolder folder;
@@ -87,19 +87,20 @@ TEST_CASE("polygons, negative indices, normals and groups of an OBJ file are rea
 TEST_CASE("unit and up axis of an OBJ file are converted")
 {
     const std::string text = "v 1 2 3\nv 1 0 0\nv 0 1 0\r\nf 1 2 3\r\n";
-    CHECK((read_text(text, "cm", "y").vertices[0] - Vec3(0.01, -0.03, 0.02)).norm() < 1e-15);
-    CHECK((read_text(text, "mm", "x").vertices[0] - Vec3(0.002, 0.003, 0.001)).norm() < 1e-15);
-    CHECK((read_text(text, "inch", "z").vertices[0] - 0.0254 * Vec3(1, 2, 3)).norm() < 1e-15);
+    CHECK((read_text(text, LengthUnit::cm, Axis::y).vertices[0] - Vec3(0.01, -0.03, 0.02)).norm() < 1e-15);
+    CHECK((read_text(text, LengthUnit::mm, Axis::x).vertices[0] - Vec3(0.002, 0.003, 0.001)).norm() < 1e-15);
+    CHECK((read_text(text, LengthUnit::inch, Axis::z).vertices[0] - 0.0254 * Vec3(1, 2, 3)).norm() < 1e-15);
     CHECK(read_text(text).parts.empty());
 }
 
 TEST_CASE("texture coordinates are given per vertex and not scaled")
 {
     std::vector<Vec2> texture;
-    read_text("v 0 0 0\nv 100 0 0\nv 0 100 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 2/2/9 3/3/9 1/1/9\n", "cm", "z", &texture);
+    read_text("v 0 0 0\nv 100 0 0\nv 0 100 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 2/2/9 3/3/9 1/1/9\n", LengthUnit::cm, Axis::z,
+              &texture);
     REQUIRE(texture.size() == 3);
     CHECK(texture[1] == Vec2(1, 0));
-    read_text(cube, "m", "z", &texture);
+    read_text(cube, LengthUnit::m, Axis::z, &texture);
     CHECK(texture.empty());
 }
 
@@ -113,7 +114,7 @@ TEST_CASE("a written OBJ file reads back with the same objects")
     const std::vector<ObjObject> objects{{"front", square, faces, flat}, {"back", square, faces, flat}};
     write_obj(path, objects);
     std::vector<Vec2> texture;
-    const TriangleMesh mesh = read_obj(path, "m", "z", &texture);
+    const TriangleMesh mesh = read_obj(path, LengthUnit::m, Axis::z, &texture);
     REQUIRE(mesh.parts.size() == 2);
     CHECK(mesh.parts[1].name == "back");
     CHECK(mesh.faces[3] == Face{4, 6, 7});
@@ -165,7 +166,7 @@ TEST_CASE("a body of 47 500 triangles reads and is checked in a fraction of a se
     const std::vector<ObjObject> objects{{"body", mesh.vertices, mesh.faces}};
     write_obj(folder.path("body.obj"), objects);
     const auto begin = std::chrono::steady_clock::now();
-    const TriangleMesh again = read_obj(folder.path("body.obj"), "m", "z");
+    const TriangleMesh again = read_obj(folder.path("body.obj"), LengthUnit::m, Axis::z);
     const auto end = std::chrono::steady_clock::now();
     CHECK(again.faces == mesh.faces);
     CHECK_NOTHROW(require_closed_body(again, "body.obj"));

@@ -32,7 +32,7 @@ struct Variant {
     std::string edge, rotation = "[0, 0, 0]", order, units = "100", coords = "relative";
 };
 
-Pattern read_variant(const Variant& variant, const GarmentScene& garment = {})
+Pattern read_variant(const Variant& variant, const PatternConventions& conventions = {})
 {
     std::string text = squares;
     const auto fill = [&](const std::string& mark, const std::string& value) {
@@ -44,7 +44,7 @@ Pattern read_variant(const Variant& variant, const GarmentScene& garment = {})
     fill("%UNITS%", variant.units);
     fill("%COORDS%", variant.coords);
     const ScratchFolder folder;
-    return read_pattern_json(folder.write("squares.json", text), garment);
+    return read_pattern_json(folder.write("squares.json", text), conventions);
 }
 
 PatternEdge first_edge(const std::string& curvature, const std::string& coords = "relative")
@@ -85,11 +85,11 @@ TEST_CASE("units_in_meter scales every length")
 
 TEST_CASE("the up axis of the scene overrides that of the format")
 {
-    GarmentScene garment;
-    garment.up_axis = "z";
-    CHECK((read_variant({}, garment).panels[0].translation - Vec3(0.1, 1.0, 0.25)).norm() < 1e-12);
-    garment.up_axis = "x";
-    CHECK((read_variant({}, garment).panels[0].translation - Vec3(1.0, 0.25, 0.1)).norm() < 1e-12);
+    PatternConventions conventions;
+    conventions.up = PatternAxis::z;
+    CHECK((read_variant({}, conventions).panels[0].translation - Vec3(0.1, 1.0, 0.25)).norm() < 1e-12);
+    conventions.up = PatternAxis::x;
+    CHECK((read_variant({}, conventions).panels[0].translation - Vec3(1.0, 0.25, 0.1)).norm() < 1e-12);
 }
 
 TEST_CASE("control points count along and across the edge when they are relative")
@@ -146,15 +146,15 @@ TEST_CASE("rotations are applied as Rz Ry Rx, with a warning where the order mat
 {
     Variant variant;
     variant.rotation = "[90, 90, 0]";
-    GarmentScene garment;
-    garment.up_axis = "z";
-    const Pattern pattern = read_variant(variant, garment);
+    PatternConventions conventions;
+    conventions.up = PatternAxis::z;
+    const Pattern pattern = read_variant(variant, conventions);
     // Rx maps y to z, then Ry maps z to x.
     CHECK((pattern.panels[0].rotation * Vec3(0, 1, 0) - Vec3(1, 0, 0)).norm() < 1e-12);
     REQUIRE(pattern.warnings.size() == 1);
     CHECK(pattern.warnings[0].find("pattern.panels.front.rotation") != std::string::npos);
-    garment.rotation_order = "zyx";
-    CHECK((read_variant(variant, garment).panels[0].rotation * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm() < 1e-12);
+    conventions.rotation_order = RotationOrder::zyx;
+    CHECK((read_variant(variant, conventions).panels[0].rotation * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm() < 1e-12);
     variant.rotation = "[0, 45, 360]";
     CHECK(read_variant(variant).warnings.empty());
 }

@@ -56,8 +56,8 @@ TEST_CASE("a scene file's values arrive in the scene and absent ones keep their 
     REQUIRE(scene.sheets.size() == 2);
     CHECK(scene.sheets[0].width == 2);
     CHECK(scene.sheets[0].height == SheetScene{}.height);
-    CHECK(scene.sheets[1].shape == "disc");
-    CHECK(scene.solver.until == "1.5");
+    CHECK(scene.sheets[1].shape == SheetShape::disc);
+    CHECK(scene.until().time == 1.5);
     CHECK(scene.solver.threads == 2);
     CHECK(scene.solver.gravity == Vec3(0, 0, -1));
     CHECK_FALSE(scene.output.frames);
@@ -102,10 +102,10 @@ TEST_CASE("overrides take TOML values and bare words and reach every sheet or th
     CHECK(scene.sheets[1].resolution == 17);
     CHECK(scene.sheets[0].radius == SheetScene{}.radius);
     CHECK(scene.sheets[1].radius == 0.3);
-    CHECK(scene.solver.until == "equilibrium");
+    CHECK(scene.until().equilibrium);
     CHECK(scene.wind.velocity == Vec3(1, 2, 3));
     CHECK(scene.output.frames);
-    CHECK(scene.pins.sheet == "corners");
+    CHECK(scene.pins.sheet == PinGroup::corners);
     CHECK(scene.place("sheet[0].resolution").file == "--set sheet.resolution=17");
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("the built-in sphere scene has its documented contents")
     CHECK(body.radius == 0.25);
     CHECK(body.friction == 0.3);
     CHECK(sheet.center.z() - (body.center.z() + body.radius) == Approx(0.02));
-    CHECK(std::stod(scene.solver.until) == 2);
+    CHECK(scene.until().time == 2);
 }
 
 TEST_CASE("every built-in fabric is within the accepted ranges, has a stable membrane and names its source")

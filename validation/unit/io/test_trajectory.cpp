@@ -133,17 +133,16 @@ TEST_CASE("a run file has the layout that VTK and h5py users rely on")
 TEST_CASE("rounding moves positions by at most half a grid spacing and onto the grid")
 {
     const Folder folder;
-    for (const char* word : {"8um", "60um"}) {
-        const double spacing = grid_spacing(position_grid(word));
-        TrajectoryWriter writer = TrajectoryWriter::create(folder.file("run.h5"), square(position_grid(word)));
+    for (const PositionGrid grid : {PositionGrid::fine_8um, PositionGrid::coarse_60um}) {
+        const double spacing = grid_spacing(grid);
+        TrajectoryWriter writer = TrajectoryWriter::create(folder.file("run.h5"), square(grid));
         write_frames(writer, 2);
         writer.finish();
         check_frames(folder.file("run.h5"), 2, spacing / 2);
         for (const Vec3& x : TrajectoryReader(folder.file("run.h5")).read_frame(1))
             for (int axis = 0; axis < 3; ++axis) CHECK(std::fmod(x[axis], spacing) == 0);
     }
-    CHECK(grid_spacing(position_grid("8um")) == std::ldexp(1.0, -17));
-    CHECK_THROWS_AS(position_grid("9um"), InputError);
+    CHECK(grid_spacing(PositionGrid::fine_8um) == std::ldexp(1.0, -17));
 }
 
 TEST_CASE("a position that is not finite is refused and leaves the file as it was")
@@ -226,11 +225,32 @@ TEST_CASE("the index for ParaView names every frame with its time and rows")
 TEST_CASE("a summary holds every documented key, and null for unknown values")
 {
     const nlohmann::json json = nlohmann::json::parse(summary_json({}));
-    for (const char* key :
-         {"status",   "scene",       "version", "threads", "precision", "vertices", "triangles", "steps",
-          "frames",   "simulated_s", "wall_s",  "phases",  "kernels",   "active",   "skipped",   "peak_memory_bytes",
-          "residual", "energy",      "stretch", "body",    "self",      "seams",    "panels",    "warnings",
-          "message"})
+    for (const char* key : {"status",
+                            "scene",
+                            "version",
+                            "threads",
+                            "precision",
+                            "vertices",
+                            "triangles",
+                            "steps",
+                            "frames",
+                            "simulated_s",
+                            "wall_s",
+                            "phases",
+                            "kernels",
+                            "integrators",
+                            "active",
+                            "skipped",
+                            "peak_memory_bytes",
+                            "residual",
+                            "energy",
+                            "stretch",
+                            "body",
+                            "self",
+                            "seams",
+                            "panels",
+                            "warnings",
+                            "message"})
         CHECK(json.contains(key));
     for (const char* key : {"membrane_J", "bending_J", "gravity_J", "contact_J", "kinetic_J"})
         CHECK(json["energy"].contains(key));

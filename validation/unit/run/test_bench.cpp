@@ -168,7 +168,7 @@ TEST_CASE("the cloth of the kernel benchmark gives every term and stage work to 
         CHECK(std::abs(term.energy(cloth.state, cloth.params)) > 0);
     }
     CHECK(cloth.contact->contact_count() == cloth.state.size.vertex_count);
-    CHECK_FALSE(cloth.transfers.empty());
+    CHECK_FALSE(cloth.prolongations.empty());
     const std::vector<real> before = cloth.state.pos;
     cloth.state.pos[0] += 0.1;
     cloth.reset();

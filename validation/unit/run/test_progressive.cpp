@@ -1,5 +1,5 @@
 #include "host/garment/sheet.hpp"
-#include "host/model/transfer.hpp"
+#include "host/model/prolongation.hpp"
 #include "host/run/progressive.hpp"
 #include "validation/unit/catch.hpp"
 
@@ -11,9 +11,9 @@ Cloth sheet_of(int resolution)
 {
     SheetScene sheet;
     sheet.resolution = resolution;
-    sheet.mesh_family = "same_diagonal";
+    sheet.mesh_family = MeshFamily::same_diagonal;
     PinsScene pins;
-    pins.sheet = "top_corners";
+    pins.sheet = PinGroup::top_corners;
     return make_sheet(sheet, pins, "test", "sheet[0]");
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("a shape that is interpolated to a nested mesh keeps its range of edge
     for (const Vec2& u : coarse.panel_coordinates)
         wave.push_back(Vec3(u.x(), u.y(), 1 + 0.2 * std::sin(6 * u.x()) * u.y()));
     for (int v : coarse.pinned) wave[std::size_t(v)] = coarse.positions[std::size_t(v)];
-    const std::vector<Vec3> carried = carry_over(fine, make_transfer(coarse, fine), wave);
+    const std::vector<Vec3> carried = carry_over(fine, make_prolongation(coarse, fine), wave);
     const auto before = stretch_range(coarse, wave), after = stretch_range(fine, carried);
     CHECK(before[1] > 1.05);
     CHECK(after[0] == Approx(before[0]).epsilon(1e-12));

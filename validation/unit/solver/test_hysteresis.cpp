@@ -39,7 +39,7 @@ const Term& hysteresis_term()
     throw std::logic_error("no such term");
 }
 
-Cloth strip(const std::string& family)
+Cloth strip(MeshFamily family)
 {
     SheetScene sheet;
     sheet.width = 0.06;
@@ -160,9 +160,9 @@ bool allocates_anchors(const RunPlan& plan)
 
 TEST_CASE("cloth bent to and fro has a hysteresis loop of the width 2HB on any mesh, along weft and warp")
 {
-    for (const char* family : {"alternating", "same_diagonal", "irregular"})
+    for (const MeshFamily family : {MeshFamily::alternating, MeshFamily::same_diagonal, MeshFamily::irregular})
         for (int axis : {0, 1}) {
-            INFO(family << " axis " << axis);
+            INFO(word_of(family) << " axis " << axis);
             const double width = axis == 0 ? loop_weft : loop_warp;
             const Cloth cloth = strip(family);
             BentStrip bent(cloth, axis);
@@ -182,7 +182,7 @@ TEST_CASE("cloth bent to and fro has a hysteresis loop of the width 2HB on any m
 
 TEST_CASE("cloth bent by less than the stick curvature springs back to where it was")
 {
-    const Cloth cloth = strip("irregular");
+    const Cloth cloth = strip(MeshFamily::irregular);
     BentStrip bent(cloth, 0);
     const double lent = bent.energy(1);
     CHECK(lent > 0);

@@ -20,7 +20,7 @@ FabricTable one_rigidity(double weft, double warp)
     return {{"test", fabric}};
 }
 
-Cloth rectangle(const std::string& family)
+Cloth rectangle(MeshFamily family)
 {
     SheetScene sheet;
     sheet.width = 1.2;
@@ -112,9 +112,9 @@ Cloth sewn_grid(int columns, int rows, int cut, double angle, bool turned_over)
 TEST_CASE("a plate bent along weft or warp has exactly the fabric's rigidity on any mesh", "[plate]")
 {
     const FabricTable fabrics = one_rigidity(0.02, 0.005);
-    for (const char* family : {"alternating", "same_diagonal", "irregular"})
+    for (const MeshFamily family : {MeshFamily::alternating, MeshFamily::same_diagonal, MeshFamily::irregular})
         for (int axis : {0, 1}) {
-            INFO(family << " axis " << axis);
+            INFO(word_of(family) << " axis " << axis);
             const Cloth cloth = rectangle(family);
             const double rigidity = axis == 0 ? 0.02 : 0.005;
             CHECK(plate_energy(cloth, fabrics, cylinder(cloth, axis)) ==
@@ -125,9 +125,9 @@ TEST_CASE("a plate bent along weft or warp has exactly the fabric's rigidity on 
 TEST_CASE("the rigidity of an isotropic plate does not depend on the direction of its mesh", "[plate]")
 {
     const FabricTable fabrics = one_rigidity(0.02, 0.02);
-    for (const char* family : {"alternating", "same_diagonal", "irregular"})
+    for (const MeshFamily family : {MeshFamily::alternating, MeshFamily::same_diagonal, MeshFamily::irregular})
         for (double angle : {0.3, 0.785, 1.2}) {
-            INFO(family << " angle " << angle);
+            INFO(word_of(family) << " angle " << angle);
             Cloth cloth = rectangle(family);
             const double straight = plate_energy(cloth, fabrics, cylinder(cloth, 0));
             const Eigen::Rotation2Dd turn(angle);

@@ -1,5 +1,5 @@
+#include "host/scene/run_settings.hpp"
 #include "host/scene/scene_model.hpp"
-#include "host/scene/scene_phase.hpp"
 #include "host/solver/stepping/sleep.hpp"
 #include "io/scene/read_scene.hpp"
 #include "validation/unit/catch.hpp"
@@ -18,14 +18,13 @@ Scene hanging()
 
 struct Cloths {
     SceneModel model;
-    RunPlan plan;
     Profile profile;
     std::unique_ptr<Phase> phase;
 
-    explicit Cloths(const Scene& scene) : model(build_scene_model(scene)), plan(make_plan(scene, model))
+    explicit Cloths(const Scene& scene) : model(build_scene_model(scene))
     {
-        const Cloth& cloth = model.model.cloth;
-        phase = std::make_unique<Phase>(model.model, phase_options(scene, model, plan.phases.back()), nullptr, profile,
+        const Cloth& cloth = model.cloth_model.cloth;
+        phase = std::make_unique<Phase>(model.cloth_model, phase_options(scene, model, false), nullptr, profile,
                                         cloth.positions, std::vector<Vec3>{});
     }
 };
@@ -60,8 +59,8 @@ TEST_CASE("cloth of which a part sleeps moves as if that part were pinned")
 {
     const Scene scene = hanging();
     Cloths sleeping(scene), pinned(scene);
-    const std::vector<Vec3> start = sleeping.model.model.cloth.positions;
-    const std::vector<char> asleep = lower_half(sleeping.model.model.cloth);
+    const std::vector<Vec3> start = sleeping.model.cloth_model.cloth.positions;
+    const std::vector<char> asleep = lower_half(sleeping.model.cloth_model.cloth);
     std::vector<char> awake;
     for (char s : asleep) awake.push_back(!s);
     // The vertices are pinned only after the phase was made. Pinned before, they would clamp the plate, whose elements
@@ -69,12 +68,12 @@ TEST_CASE("cloth of which a part sleeps moves as if that part were pinned")
     for (std::size_t v = 0; v < asleep.size(); ++v)
         if (asleep[v]) pinned.phase->state().inv_mass[v] = 0;
 
-    sleeping.phase->newton().static_residual();
-    put_to_sleep(*sleeping.phase, awake, 0);
-    CHECK(sleeping.phase->state().awake.face.size() < sleeping.model.model.cloth.faces.size());
+    sleeping.phase->system().evaluate_forces(false);
+    put_to_sleep(sleeping.phase->system(), awake, 0);
+    CHECK(sleeping.phase->state().awake.face.size() < sleeping.model.cloth_model.cloth.faces.size());
     for (int step = 0; step < 3; ++step) {
-        REQUIRE(sleeping.phase->newton().step(0.02, exact()).converged);
-        REQUIRE(pinned.phase->newton().step(0.02, exact()).converged);
+        REQUIRE(implicit_euler_step(sleeping.phase->newton(), 0.02, exact()).converged);
+        REQUIRE(implicit_euler_step(pinned.phase->newton(), 0.02, exact()).converged);
     }
     const std::vector<Vec3> a = sleeping.phase->positions(), b = pinned.phase->positions();
     CHECK(largest_difference(a, b) < 1e-8);
@@ -88,16 +87,16 @@ TEST_CASE("once all vertices are awake the forces and energy are those of a shee
     const Scene scene = hanging();
     Cloths slept(scene), other(scene);
     std::vector<char> awake;
-    for (char s : lower_half(slept.model.model.cloth)) awake.push_back(!s);
-    slept.phase->newton().static_residual();
-    put_to_sleep(*slept.phase, awake, 0);
-    slept.phase->newton().step(0.02, exact());
-    wake(*slept.phase);
+    for (char s : lower_half(slept.model.cloth_model.cloth)) awake.push_back(!s);
+    slept.phase->system().evaluate_forces(false);
+    put_to_sleep(slept.phase->system(), awake, 0);
+    implicit_euler_step(slept.phase->newton(), 0.02, exact());
+    wake(slept.phase->system());
     other.phase->state().pos = slept.phase->state().pos;
     other.phase->state().vel = slept.phase->state().vel;
-    CHECK(slept.phase->newton().static_residual() == Approx(other.phase->newton().static_residual()).epsilon(1e-12));
-    CHECK(slept.phase->newton().potential_energy() == Approx(other.phase->newton().potential_energy()).epsilon(1e-12));
-    REQUIRE(slept.phase->newton().step(0.02, exact()).converged);
-    REQUIRE(other.phase->newton().step(0.02, exact()).converged);
+    CHECK(slept.phase->system().residual() == Approx(other.phase->system().residual()).epsilon(1e-12));
+    CHECK(slept.phase->system().potential_energy() == Approx(other.phase->system().potential_energy()).epsilon(1e-12));
+    REQUIRE(implicit_euler_step(slept.phase->newton(), 0.02, exact()).converged);
+    REQUIRE(implicit_euler_step(other.phase->newton(), 0.02, exact()).converged);
     CHECK(largest_difference(slept.phase->positions(), other.phase->positions()) < 1e-9);
 }

@@ -68,7 +68,7 @@ TEST_CASE("a run that ends at the stability limit keeps its last accepted state 
     }
     REQUIRE(refused);
     CHECK(state.pos == accepted);
-    const double kept = phase.newton().potential_energy();
+    const double kept = phase.system().potential_energy();
     phase.contact()->update(state);
-    CHECK(phase.newton().potential_energy() == kept);
+    CHECK(phase.system().potential_energy() == kept);
 }

@@ -13,11 +13,8 @@ namespace {
 
 void turn_and_shift(State& state, const Mat3& turn)
 {
-    const int vs = state.size.vertex_stride;
-    for (int v = 0; v < state.size.vertex_count; ++v) {
-        const Vec3 moved = turn * Vec3(state.pos[v], state.pos[vs + v], state.pos[2 * vs + v]) + Vec3(0.3, -2, 5);
-        for (int c = 0; c < 3; ++c) state.pos[c * vs + v] = moved[c];
-    }
+    const Planes x = vertex_planes(state.size, state.pos);
+    for (int v = 0; v < x.count; ++v) x.set(v, turn * x(v) + Vec3(0.3, -2, 5));
 }
 
 }  // namespace
@@ -71,13 +68,12 @@ TEST_CASE("internal terms are invariant under rigid motions and exert no net for
         const bool held = term.name == "cloth_friction";
         const double before = term.energy(state, params);
         const std::vector<real> force = term_force(term, state, params);
-        const int vs = state.size.vertex_stride;
         Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
         double size = 0;
         for (int v = 0; v < state.size.vertex_count; ++v) {
-            const Vec3 f(force[v], force[vs + v], force[2 * vs + v]);
+            const Vec3 f = vertex_planes(state.size, force)(v);
             net += f;
-            torque += Vec3(state.pos[v], state.pos[vs + v], state.pos[2 * vs + v]).cross(f);
+            torque += vertex_planes(state.size, state.pos)(v).cross(f);
             size += f.norm();
         }
         CHECK(net.norm() <= 1e-13 * size);
@@ -121,17 +117,17 @@ TEST_CASE("linear solvers of both precisions and preconditioners agree with a de
     const Cloth cloth = grid_cloth(9, 9), half = grid_cloth(5, 5, 0.2);
     const Topology fine = make_topology(cloth, false), coarse = make_topology(half, false);
     State state = make_state(fine, cloth, test_fabrics(), params, cloth.positions, {});
-    Transfer transfer{{0}, {}, {}};
+    Prolongation prolongation{{0}, {}, {}};
     for (int r = 0; r < 9; ++r)
         for (int c = 0; c < 9; ++c) {
             for (int i : {r / 2, (r + 1) / 2})
                 for (int j : {c / 2, (c + 1) / 2}) {
-                    transfer.column.push_back(5 * i + j);
-                    transfer.weight.push_back(0.25);
+                    prolongation.column.push_back(5 * i + j);
+                    prolongation.weight.push_back(0.25);
                 }
-            transfer.offset.push_back(int(transfer.column.size()));
+            prolongation.offset.push_back(int(prolongation.column.size()));
         }
-    const ParticleTransfers transfers{particle_transfer(transfer, coarse, fine)};
+    const ParticleProlongations prolongations{particle_prolongation(prolongation, coarse, fine)};
     std::vector<real> b(state.pos.size()), x(state.pos.size());
     for (int dof : active_dofs(state)) b[dof] = std::sin(0.37 * dof);
 
@@ -152,8 +148,8 @@ TEST_CASE("linear solvers of both precisions and preconditioners agree with a de
     for (Preconditioner preconditioner : {Preconditioner::block_jacobi, Preconditioner::multigrid})
         for (bool in_double : {true, false}) {
             const LinearOptions options{preconditioner, 2000};
-            const auto solver = in_double ? make_linear_solver_double(state, options, transfers)
-                                          : make_linear_solver_float(state, options, transfers);
+            const auto solver = in_double ? make_linear_solver_double(state, options, prolongations)
+                                          : make_linear_solver_float(state, options, prolongations);
             solver->assemble(state, 100);
             const LinearResult result = solver->solve(b.data(), in_double ? 1e-12 : 1e-5, x.data());
             CHECK_FALSE(result.negative_curvature);

@@ -1,6 +1,7 @@
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 
-#include "host/parallel/launch.hpp"
+#include <utility>
+
 #include "host/solver/stepping/stability.hpp"
 
 namespace selvage {
@@ -14,7 +15,7 @@ constexpr int steps_in_contact = 10;  // the same where the barrier of a body ma
 NewtonReport ExplicitScheme::step(double dt, const NewtonOptions&)
 {
     move(dt);
-    phase_.newton().settle();
+    phase_.system().settle();
     ++watch_[1];
     watch_[3] = contacts();
     NewtonReport report;
@@ -44,12 +45,9 @@ void ExplicitScheme::accelerate(std::vector<real>& a)
     State& s = state();
     // A state that has burst is no place to look for bodies; the caller finds out.
     if (phase_.contact() && is_finite(s)) phase_.contact()->update(s);
-    if (is_finite(s)) phase_.newton().list_pairs();
-    phase_.newton().terms().evaluate_forces(true);
-    const int vs = s.size.vertex_stride;
-    for_each_item(s.size.vertex_count, [&s, vs, to = a.data()](int v) {
-        for (int c = 0; c < 3; ++c) to[c * vs + v] = s.inv_mass[v] * s.force[c * vs + v];
-    });
+    if (is_finite(s)) phase_.system().refresh_pairs();
+    phase_.system().evaluate_forces(true);
+    weigh(vertex_planes(s.size, a), s.inv_mass, vertex_planes(s.size, std::as_const(s.force)));
 }
 
 }  // namespace selvage

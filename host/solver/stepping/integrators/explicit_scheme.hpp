@@ -1,5 +1,5 @@
 #pragma once
-#include "host/solver/state/vector_tools.hpp"
+#include "host/solver/state/vectors.hpp"
 #include "host/solver/stepping/integrator.hpp"
 #include "host/solver/stepping/phase.hpp"
 
@@ -13,7 +13,7 @@ public:
     NewtonReport step(double dt, const NewtonOptions& options) final;
     void restart() final;
     void displaced() override {}
-    std::vector<std::vector<real>*> history() override { return {&watch_}; }
+    std::vector<HistoryArray> history() override { return {{"stability_watch", &watch_}}; }
     /// Estimated anew after some steps, and when many vertices have come into contact or left it.
     double stable_step() final;
 

@@ -1,7 +1,6 @@
 // m (v1 - v0) / dt = f(x1, v1),   x1 = x0 + dt v1
-// Source: Baraff and Witkin 1998 (D11).
-#include "host/parallel/launch.hpp"
-#include "host/solver/state/vector_tools.hpp"
+// Source: Baraff and Witkin 1998.
+#include "host/solver/state/vectors.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
 #include "host/solver/stepping/phase.hpp"
 
@@ -15,22 +14,19 @@ public:
 
     NewtonReport step(double dt, const NewtonOptions& options) override
     {
-        State& s = phase_.state();
-        guess_.resize(s.pos.size());
-        for_each_item(int(s.pos.size()), [&s, dt, g = guess_.data()](int i) { g[i] = s.pos[i] + dt * s.vel[i]; });
-        return phase_.newton().step(dt, options);
+        return implicit_euler_step(phase_.newton(), dt, options, &free_flight_);
     }
 
     // The step errs by +dt^2/2 a and free flight by -dt^2/2 a: half their difference (Milne's device).
     double error_estimate() const override
     {
-        return 0.5 * largest_distance(phase_.state(), phase_.state().pos, guess_);
+        return 0.5 * largest_distance(phase_.state(), phase_.state().pos, free_flight_);
     }
 
 private:
     Phase& phase_;
     const IntegratorInfo& info_;
-    std::vector<real> guess_;
+    std::vector<real> free_flight_;
 };
 
 }  // namespace

@@ -2,9 +2,10 @@
 //     m (vm - v0) / (dt/2) = f(xm, vm),   xm = x0 + dt/2 vm,   x1 = 2 xm - x0,   v1 = 2 vm - v0
 // Source: Hairer, Lubich and Wanner 2006, ch. II.1.
 #include "host/parallel/launch.hpp"
-#include "host/solver/state/vector_tools.hpp"
+#include "host/solver/state/vectors.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
 #include "host/solver/stepping/phase.hpp"
+#include "kernels/stages/integrator_steps.h"
 
 namespace selvage {
 namespace {
@@ -20,29 +21,23 @@ public:
     // It keeps the energy of linear motion only.
     bool may_gain_energy() const override { return true; }
     void restart() override { last_dt_[0] = 0; }
-    std::vector<std::vector<real>*> history() override { return {&acceleration_, &last_dt_}; }
+    std::vector<HistoryArray> history() override { return {{"acceleration", &acceleration_}, {"last_dt", &last_dt_}}; }
     double error_estimate() const override { return error_; }
 
     NewtonReport step(double dt, const NewtonOptions& options) override
     {
         State& s = phase_.state();
-        const int n = int(s.pos.size());
         start_ = s.pos;
         start_vel_ = s.vel;
         before_ = acceleration_;
-        for_each_item(n, [&, dt](int i) {
-            target_[i] = s.pos[i] + 0.5 * dt * s.vel[i];
-            expected_[i] = target_[i] + 0.25 * dt * dt * acceleration_[i];
-        });
+        add(target_, s.pos, 0.5 * dt, s.vel);
+        add(expected_, target_, 0.25 * dt * dt, acceleration_);
         const bool first = last_dt_[0] == 0;
         const NewtonReport report =
             phase_.newton().minimise(0.5 * dt, start_, target_, options, first ? nullptr : &expected_);
-        for_each_item(n, [&, dt](int i) {
-            s.pos[i] += s.pos[i] - start_[i];
-            s.vel[i] += s.vel[i] - start_vel_[i];
-            acceleration_[i] = (s.vel[i] - start_vel_[i]) / dt;
-        });
-        phase_.newton().settle();
+        launch<midpoint_finish>(int(s.pos.size()), midpoint_args{s.pos.data(), s.vel.data(), acceleration_.data(),
+                                                                 start_.data(), start_vel_.data(), dt});
+        phase_.system().settle();
         // dt^3/12 x''', the third derivative from the middles of two steps; at first from an acceleration that set in.
         if (last_dt_[0] == 0) before_.assign(before_.size(), 0);
         error_ = dt * dt * dt / 6 / (dt + last_dt_[0]) * largest_distance(s, acceleration_, before_);

@@ -8,7 +8,8 @@ namespace selvage {
 
 std::span<const IntegratorInfo> integrators()
 {
-#define INTEGRATOR(name, order, is_explicit, error_power, summary) {#name, summary, order, is_explicit, error_power},
+#define INTEGRATOR(name, word, order, is_explicit, error_power, summary) \
+    {word, summary, order, is_explicit, error_power},
     static const IntegratorInfo infos[] = {INTEGRATORS(INTEGRATOR)};
 #undef INTEGRATOR
     return infos;
@@ -20,8 +21,8 @@ std::unique_ptr<Integrator> make_integrator(std::string_view wanted, Phase& phas
     for (const IntegratorInfo& info : integrators()) {
         names.emplace_back(info.name);
         if (info.name != wanted) continue;
-#define INTEGRATOR(name, order, is_explicit, error_power, summary) \
-    if (wanted == #name) return make_##name##_integrator(phase, info);
+#define INTEGRATOR(name, word, order, is_explicit, error_power, summary) \
+    if (wanted == word) return make_##name##_integrator(phase, info);
         INTEGRATORS(INTEGRATOR)
 #undef INTEGRATOR
     }

@@ -4,7 +4,6 @@
 // its error, so the step is better than the estimate says.
 // In contact with bodies it gains energy: its order holds for smooth forces, and the tangent planes are not.
 // Source: Kutta 1901; the companion follows from the order conditions in Hairer, Norsett and Wanner 1993, ch. II.4.
-#include "host/parallel/launch.hpp"
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
 
@@ -25,25 +24,19 @@ private:
         State& s = state();
         x0_ = s.pos;
         v0_ = s.vel;
-        for (std::vector<real>* v : {&way_, &gain_}) v->assign(v->size(), 0);
+        for (std::vector<real>* v : {&way_, &gain_}) clear(*v);
         const double weight[4] = {dt / 6, dt / 3, dt / 3, dt / 6}, ahead[3] = {dt / 2, dt / 2, dt};
         for (int stage = 0; stage < 4; ++stage) {
             accelerate(a_);
-            for_each_item(size(), [&, stage](int i) {
-                way_[i] += weight[stage] * s.vel[i];
-                gain_[i] += weight[stage] * a_[i];
-            });
+            add(way_, way_, weight[stage], s.vel);
+            add(gain_, gain_, weight[stage], a_);
             if (stage == 3) break;
-            for_each_item(size(), [&, h = ahead[stage]](int i) {
-                s.pos[i] = x0_[i] + h * s.vel[i];
-                s.vel[i] = v0_[i] + h * a_[i];
-            });
+            add(s.pos, x0_, ahead[stage], s.vel);
+            add(s.vel, v0_, ahead[stage], a_);
         }
         a_ = s.vel;  // the velocity part of k4
-        for_each_item(size(), [&](int i) {
-            s.pos[i] = x0_[i] + way_[i];
-            s.vel[i] = v0_[i] + gain_[i];
-        });
+        add(s.pos, x0_, 1, way_);
+        add(s.vel, v0_, 1, gain_);
         error_ = dt / 6 * largest_distance(s, a_, s.vel);
     }
 

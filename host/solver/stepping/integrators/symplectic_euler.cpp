@@ -1,6 +1,5 @@
 // v1 = v0 + dt a(x0, v0),   x1 = x0 + dt v1
-// Source: Provot 1995 (E8), where the new velocity moves the vertex.
-#include "host/parallel/launch.hpp"
+// Source: Provot 1995, where the new velocity moves the vertex.
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
 
@@ -18,10 +17,9 @@ private:
     void move(double dt) override
     {
         accelerate(a_);
-        for_each_item(size(), [&s = state(), a = a_.data(), dt](int i) {
-            s.vel[i] += dt * a[i];
-            s.pos[i] += dt * s.vel[i];
-        });
+        State& s = state();
+        add(s.vel, s.vel, dt, a_);
+        add(s.pos, s.pos, dt, s.vel);
     }
 
     // Of a mode of frequency w and drag g the roots stay in the unit circle while dt^2 w^2 + 2 dt g <= 4.

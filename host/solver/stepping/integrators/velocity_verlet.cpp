@@ -1,10 +1,11 @@
 // x1 = x0 + dt v0 + dt^2/2 a0,   v1 = v0 + dt/2 (a0 + a1)
 // a1 = a(x1, v0 + dt a0): where forces depend on velocity the predicted one keeps the second order. a1 serves the next
 // step, which errs by dt^2 times its change and so not in the order either.
-// Source: C4; Swope and others 1982.
+// Source: Swope and others 1982.
 #include "host/parallel/launch.hpp"
 #include "host/solver/stepping/integrators/explicit_scheme.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
+#include "kernels/stages/integrator_steps.h"
 
 namespace selvage {
 namespace {
@@ -16,10 +17,10 @@ public:
     {
     }
     void displaced() override { known_[0] = 0; }
-    std::vector<std::vector<real>*> history() override
+    std::vector<HistoryArray> history() override
     {
         auto all = ExplicitScheme::history();
-        all.insert(all.end(), {&a_, &known_});
+        all.insert(all.end(), {{"acceleration", &a_}, {"acceleration_known", &known_}});
         return all;
     }
     double error_estimate() const override { return error_; }
@@ -28,14 +29,10 @@ private:
     void move(double dt) override
     {
         if (known_[0] == 0) accelerate(a_);
-        for_each_item(size(), [&s = state(), a = a_.data(), dt](int i) {
-            s.pos[i] += dt * (s.vel[i] + 0.5 * dt * a[i]);
-            s.vel[i] += dt * a[i];
-        });
+        const verlet_args args{state().pos.data(), state().vel.data(), a_.data(), next_.data(), dt};
+        launch<verlet_start>(size(), args);
         accelerate(next_);
-        for_each_item(size(), [&s = state(), a = a_.data(), b = next_.data(), dt](int i) {
-            s.vel[i] += 0.5 * dt * (b[i] - a[i]);
-        });
+        launch<verlet_finish>(size(), args);
         error_ = dt * dt / 6 * largest_distance(state(), next_, a_);  // dt^3 x'''/6
         a_.swap(next_);
         known_[0] = 1;

@@ -1,0 +1,108 @@
+#include "host/scene/run_settings.hpp"
+
+#include <algorithm>
+
+#include "host/scene/coarse_start.hpp"
+#include "host/scene/features.hpp"
+
+namespace selvage {
+namespace {
+
+// Vertices. The ratio of the stiffest to the softest motion grows with the square of the resolution: where it nears the
+// 16 million steps of single precision, directions of descent get lost in rounding.
+constexpr std::size_t most_in_float = 500000;
+
+ClothSettings cloth_settings(const Scene& scene, const SceneModel& model)
+{
+    ClothSettings settings;
+    if (model.sews) settings.sewing = phase_options(scene, model, true);
+    settings.draping = phase_options(scene, model, false);
+    settings.sew.step = scene.solver.step;
+    settings.sew.closed = scene.seams.closed;
+    settings.sew.energy_tolerance = scene.solver.energy_tolerance;
+    settings.sew.max_time = scene.seams.max_time;
+    settings.sew.first_stiffness = settings.sewing.params.seam.stiffness;
+    return settings;
+}
+
+EquilibriumOptions drape_options(const SolverScene& solver)
+{
+    EquilibriumOptions options;
+    options.step.longest = solver.step;
+    options.step.adaptive = solver.adaptive;
+    options.step.error = solver.step_error;
+    options.step.unstable = solver.unstable_step;
+    options.hurries = solver.integrator != IntegratorChoice::bdf2;  // who asks for it asks for the whole motion
+    options.tolerance = solver.tolerance;
+    options.max_time = solver.max_time;
+    options.newton_iterations = solver.newton_iterations;
+    options.sleeps = solver.sleep;
+    options.load_steps = solver.load_steps;
+    return options;
+}
+
+}  // namespace
+
+RunSettings make_run_settings(const Scene& scene, const SceneModel& model)
+{
+    RunSettings settings;
+    settings.name = scene.name;
+    settings.file = scene.file;
+    settings.text = scene.text;
+    settings.step_place = scene.place("solver.step");
+    settings.cloth = cloth_settings(scene, model);
+    if (why_no_coarse_start(scene, model).empty())
+        for (std::size_t level = 0; level < levels_used(scene, model); ++level)
+            settings.coarser.push_back(cloth_settings(scene, coarser_model(model, level)));
+    settings.integrator = integrator_of(scene);
+    settings.precision = solve_precision(scene, model.cloth_model.cloth);
+    settings.until = scene.until();
+    settings.drape = drape_options(scene.solver);
+    settings.max_wall = scene.solver.max_wall;
+    settings.frame_rate = scene.solver.frame_rate;
+    settings.output = scene.output;
+    return settings;
+}
+
+PhaseOptions phase_options(const Scene& scene, const SceneModel& model, bool sewing)
+{
+    PhaseOptions options;
+    options.params = phase_params(scene, model, sewing);
+    options.joined = !sewing;
+    options.float_solves = solve_precision(scene, model.cloth_model.cloth) == PrecisionChoice::in_float;
+    options.linear.max_iterations = scene.solver.linear_iterations;
+    const bool levels =
+        !model.cloth_model.coarser.empty() && scene.solver.preconditioner != PreconditionerChoice::block_jacobi;
+    options.linear.preconditioner = levels ? Preconditioner::multigrid : Preconditioner::block_jacobi;
+    return options;
+}
+
+PrecisionChoice solve_precision(const Scene& scene, const Cloth& cloth)
+{
+    if (scene.solver.precision != PrecisionChoice::automatic) return scene.solver.precision;
+    return cloth.positions.size() > most_in_float ? PrecisionChoice::in_double : PrecisionChoice::in_float;
+}
+
+IntegratorChoice integrator_of(const Scene& scene)
+{
+    if (scene.solver.integrator != IntegratorChoice::automatic) return scene.solver.integrator;
+    // Cloth that folds on bodies takes BDF2 twice the iterations of implicit Euler; where the motion counts it is worth
+    // them.
+    if (!scene.until().equilibrium)
+        return scene.bodies.empty() ? IntegratorChoice::bdf2 : IntegratorChoice::implicit_euler;
+    // Where rest depends on the way there, or the steps are to follow an estimate of their error, the way is a motion.
+    if (scene.bending.hysteresis || scene.solver.adaptive) return IntegratorChoice::implicit_euler;
+    if (scene.bodies.empty()) return IntegratorChoice::quasistatic;
+    return scene.moves() || scene.solver.load_steps > 1 ? IntegratorChoice::implicit_euler : IntegratorChoice::bdf2;
+}
+
+std::vector<std::string> drape_integrators(const Scene& scene)
+{
+    const std::string first = text_of(integrator_of(scene));
+    if (!scene.until().equilibrium) return {first};
+    const auto chosen = std::ranges::find(integrators(), first, &IntegratorInfo::name);
+    const std::string_view next = successor(*chosen, drape_options(scene.solver));
+    return next.empty() ? std::vector{first} : std::vector{first, std::string(next)};
+}
+
+}  // namespace selvage

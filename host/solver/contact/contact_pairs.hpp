@@ -1,0 +1,54 @@
+#pragma once
+#include <vector>
+
+#include "host/solver/contact/ccd_filter.hpp"
+#include "host/solver/contact/friction_memory.hpp"
+#include "host/solver/state/state.hpp"
+#include "host/solver/terms/params.hpp"
+
+namespace selvage {
+
+/// The pairs in contact: writes them to the pair fields of the state, which the terms of contact and friction read, and
+/// keeps what friction remembers of them from step to step.
+///
+/// Three orders meet here. Candidates come in any order, that of the tree's search. Pairs of the state stand in
+/// ascending order of their keys, whatever the candidates' order, so that sums over pairs do not depend on the search.
+/// The memory is a part of the pairs of the last settled step and stands in ascending order of keys too; so pairs and
+/// memory are matched in one pass, and a pair finds its friction again though it has been left out of lists in between.
+class ContactPairs {
+public:
+    /// @param area      rest area per particle [m^2]
+    /// @param friction  Coulomb coefficient per particle [1]
+    ContactPairs(const ContactGaps& gaps, std::vector<double> area, std::vector<double> friction);
+
+    /// Writes pairs to the state, with what friction remembers of them. Areas are those at state.pos.
+    /// @param bodies  where their corners are
+    /// @param listed  indices of those candidates that are to be pairs, in any order
+    void list(State& state, const TreeBodies& bodies, const std::vector<PairCandidate>& candidates,
+              std::vector<int> listed) const;
+
+    /// Ends a step for friction: bristles slip, limits follow the normal forces, and both are remembered of those pairs
+    /// whose limit is above zero.
+    void settle(State& state, const Params& params);
+
+    const FrictionMemory& memory() const { return memory_; }
+    /// @throws std::invalid_argument if the memory is not in order
+    void set_memory(FrictionMemory memory);
+
+    std::size_t bytes() const
+    {
+        return (area_.capacity() + friction_.capacity()) * sizeof(double) + memory_.capacity() * sizeof(PairFriction);
+    }
+
+private:
+    double area_of(const PairCandidate& candidate, const StraightStep& at) const;
+    double friction_of(const PairKey& pair) const;
+    void recall(State& state) const;
+    void remember(const State& state);
+
+    ContactGaps gaps_;
+    std::vector<double> area_, friction_;  // per particle
+    FrictionMemory memory_;
+};
+
+}  // namespace selvage

@@ -1,0 +1,168 @@
+#include "host/solver/stepping/system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/parallel/launch.hpp"
+#include "host/solver/contact/anchors.hpp"
+#include "host/solver/state/vectors.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr double gravity_on_earth = 9.81;  // [m/s^2]
+
+// The weight of the free vertices; without gravity that which they would have on earth.
+double weight_of(const State& state, const Params& params)
+{
+    const double gravity =
+        std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y, params.gravity.acceleration_z);
+    const double scale = gravity > 0 ? gravity : gravity_on_earth;
+    return std::sqrt(sum_items(state.size.vertex_count, [&state, scale](int v) {
+        return state.inv_mass[v] == 0 ? 0.0 : scale * scale * state.mass[v] * state.mass[v];
+    }));
+}
+
+std::vector<const VelocityFilter*> active_velocity_filters(const Params& params)
+{
+    std::vector<const VelocityFilter*> filters;
+    for (const VelocityFilter& filter : all_velocity_filters())
+        if (filter.is_active(params)) filters.push_back(&filter);
+    return filters;
+}
+
+}  // namespace
+
+System::System(State state, const Params& params, Profile& profile, Surroundings surroundings)
+    : state_(std::move(state)), params_(params), profile_(profile), around_(std::move(surroundings)),
+      bodies_exert_forces_(around_.bodies && !(params.velocity_rule.gap > 0)), terms_(state_, params_, profile),
+      velocity_filters_(active_velocity_filters(params)), force_scale_(weight_of(state_, params)),
+      static_force_(state_.pos.size())
+{
+    if (!around_.cloth || !around_.bodies || around_.bodies->motion_end() == 0) return;
+    around_.cloth->set_carry([this](State& moved, double part) {
+        const double now = around_.bodies->time(), goal = clock_.end();
+        around_.bodies->move_to(moved, part == 1 ? goal : now + part * (goal - now));
+    });
+}
+
+const std::vector<real>& System::static_force() const
+{
+    terms_.conservative_force(static_force_);
+    clear_resting(state_, static_force_);
+    return static_force_;
+}
+
+double System::residual_of(const std::vector<real>& static_force) const
+{
+    const double asleep = state_.awake.all ? 0 : state_.awake.force_squared;
+    return std::sqrt(dot(state_, static_force, static_force) + asleep) / force_scale_;
+}
+
+Energies System::energies() const
+{
+    using enum EnergyFamily;
+    return {.gravity = energy_of(external),
+            .membrane = energy_of(membrane),
+            .bending = energy_of(bending),
+            .seam = energy_of(seam),
+            .contact = energy_of(contact) + energy_of(friction),
+            .kinetic = kinetic_energy()};
+}
+
+void System::find_contacts()
+{
+    const TraceScope scope("look_around");
+    refresh_planes();
+    if (around_.cloth) around_.cloth->begin(state_);
+}
+
+void System::hold_by_friction()
+{
+    if (!around_.bodies) return;
+    refresh_pairs();
+    settle_friction(state_, params_);
+    evaluate_forces(false);
+    selvage::hold_by_friction(state_, params_);
+}
+
+void System::refresh_planes()
+{
+    if (around_.bodies) around_.bodies->update(state_);
+}
+
+void System::refresh_pairs()
+{
+    if (!around_.cloth) return;
+    profile_.timed("cloth_contact_pairs", state_.size.vertex_count, 0, [&] { around_.cloth->update(state_); });
+}
+
+void System::forget_searches()
+{
+    if (around_.cloth) around_.cloth->start_step();
+}
+
+void System::limit_by_pairs(std::vector<real>& move, bool uniform)
+{
+    if (!around_.cloth) return;
+    profile_.timed("cloth_contact_way", state_.size.vertex_count, 0,
+                   [&] { around_.cloth->filter_step(state_, move, uniform); });
+}
+
+void System::settle()
+{
+    settle_anchors(state_, params_);
+    if (around_.cloth) around_.cloth->settle(state_, params_);
+}
+
+bool System::apply_velocity_filters(double dt)
+{
+    if (velocity_filters_.empty()) return false;
+    if (around_.bodies) profile_.timed("body_query", state_.size.vertex_count, 0, [&] { refresh_planes(); });
+    for (const VelocityFilter* filter : velocity_filters_) {
+        const int count = filter->item_count(state_.size);
+        profile_.timed(filter->name, count, std::int64_t(count) * filter->bytes_per_item,
+                       [&] { filter->apply(state_, params_, dt); });
+    }
+    return around_.bodies && around_.bodies->contact_count() > 0;
+}
+
+double System::motion_end() const
+{
+    const double pinned = around_.pins ? around_.pins->end() : 0;
+    return std::max(pinned, around_.bodies ? around_.bodies->motion_end() : 0.0);
+}
+
+double System::longest_step(double room) const
+{
+    const double way = 0.5 * (body_gap(params_) + around_.contact_margin);
+    const double pinned = around_.pins ? around_.pins->longest_step(clock_.time, room, way) : room;
+    return around_.bodies ? around_.bodies->longest_step(clock_.time, pinned) : pinned;
+}
+
+void System::place_boundary()
+{
+    if (around_.bodies) around_.bodies->place(state_, clock_.time);
+    if (around_.cloth) around_.cloth->place_bodies(state_, clock_.time);
+}
+
+void System::move_boundary()
+{
+    const double end = clock_.end();
+    if (around_.cloth) {
+        around_.cloth->set_boundary_targets(
+            around_.pins ? around_.pins->places(end) : std::vector<MovingBoundary::PinTarget>{}, end);
+        return;
+    }
+    if (around_.bodies) around_.bodies->move_to(state_, end);
+    if (around_.pins) around_.pins->move_to(state_, end);
+}
+
+bool System::advance_boundary(const MovingBoundary::Follow& follow)
+{
+    if (!boundary_waits()) return false;
+    return profile_.timed("advance_held", state_.size.vertex_count, 0,
+                          [&] { return around_.cloth->advance_boundary(state_, follow); });
+}
+
+}  // namespace selvage

@@ -1,0 +1,118 @@
+#include "bench/harness/scene_runner.hpp"
+#include "host/run/restart.hpp"
+#include "host/solver/state/snapshot.hpp"
+#include "io/errors.hpp"
+#include "validation/unit/catch.hpp"
+#include "validation/unit/scratch_file.hpp"
+
+using namespace selvage;
+
+namespace {
+
+// A small phase with an integrator that remembers.
+struct Run {
+    SceneRunner runner{"builtin:sphere", {"sheet.resolution=6", "contact.self=false"}};
+    Phase phase = runner.make_phase(true);
+    std::unique_ptr<Integrator> integrator = make_integrator("bdf2", phase);
+
+    void fill_kept(double start)
+    {
+        visit_kept(phase.state(), [&](std::string_view, std::vector<real>& field) {
+            for (real& number : field) number = start += 0.001;
+        });
+        for (const HistoryArray& array : integrator->history())
+            for (real& number : *array.values) number = start += 0.001;
+    }
+};
+
+RunProgress some_progress()
+{
+    RunProgress p;
+    p.stage = RunStage::drape;
+    p.sewing = {0.2, 3, 0.4, 0.5, 0.6, 0.7};
+    p.pressing = {8, 0.9};
+    p.draping = {1.2, 13, 1.4, 1.5, 16, 0};
+    p.counters = {17, 18, 19, 2.1, {{"drape", 2.2}, {"sew", 2.3}}, {"bdf2", "implicit_euler"}};
+    p.wall_seconds = 2.4;
+    p.frames = 25;
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("every kept field, the time and all that the integrator remembers come back from a checkpoint bit for bit")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("checkpoint.h5");
+    Run run, other;
+    run.fill_kept(1);
+    run.phase.system().clock().time = 0.1;
+    save_run(path, run.runner.model(), some_progress(), run.phase, *run.integrator);
+    other.fill_kept(-7);
+    const Checkpoint checkpoint = read_checkpoint(path);
+    load_particles(checkpoint, path, other.phase);
+    load_history(checkpoint, path, *other.integrator);
+
+    CHECK(other.phase.system().clock().time == 0.1);
+    std::vector<std::vector<real>> fields;
+    visit_kept(run.phase.state(), [&](std::string_view, const std::vector<real>& field) { fields.push_back(field); });
+    REQUIRE_FALSE(fields.empty());
+    std::size_t k = 0;
+    visit_kept(other.phase.state(), [&](std::string_view name, const std::vector<real>& field) {
+        INFO(name);
+        CHECK(field == fields[k++]);
+    });
+    const std::vector<HistoryArray> history = run.integrator->history();
+    for (std::size_t h = 0; h < history.size(); ++h) {
+        INFO(history[h].name);
+        CHECK(*other.integrator->history()[h].values == *history[h].values);
+    }
+}
+
+TEST_CASE("progress that is loaded and saved again leaves the same checkpoint")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("checkpoint.h5");
+    Run run;
+    save_run(path, run.runner.model(), some_progress(), run.phase, *run.integrator);
+    const Checkpoint first = read_checkpoint(path);
+    save_run(path, run.runner.model(), load_progress(first, path, run.runner.model()), run.phase, *run.integrator);
+    const Checkpoint second = read_checkpoint(path);
+    CHECK(first.reals == second.reals);
+    CHECK(first.integers == second.integers);
+    CHECK(first.words == second.words);
+    CHECK(first.integers.at("draping.hold") == std::vector<int>{13});
+    CHECK(first.reals.at("seconds.sew") == std::vector<double>{2.3});
+}
+
+TEST_CASE("a checkpoint that lacks any of its entries is refused by that entry's name")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("checkpoint.h5");
+    Run run;
+    save_run(path, run.runner.model(), some_progress(), run.phase, *run.integrator);
+    const Checkpoint whole = read_checkpoint(path);
+    const auto check_refused = [&](const Checkpoint& part, const std::string& name) {
+        INFO(name);
+        std::string message;
+        try {
+            load_progress(part, path, run.runner.model());
+            load_particles(part, path, run.phase);
+            load_history(part, path, *run.integrator);
+        } catch (const InputError& error) {
+            message = error.what();
+        }
+        CHECK(message.find(name) != std::string::npos);
+    };
+    for (const auto& [name, values] : whole.reals) {
+        if (name.starts_with("seconds.")) continue;  // of the phases that there have been
+        Checkpoint part = whole;
+        part.reals.erase(name);
+        check_refused(part, name);
+    }
+    for (const auto& [name, values] : whole.integers) {
+        Checkpoint part = whole;
+        part.integers.erase(name);
+        check_refused(part, name);
+    }
+}
