@@ -26,7 +26,7 @@ struct Feature {
     bool is_listed = true;  ///< Among what is active, if it is on.
 };
 
-/// Returns the rows in the order in which the plan lists those that are neither of these.
+/// Returns the rows; those that are neither term nor velocity filter stand in the order in which the plan lists them.
 /// A term or velocity filter without a row has the parameters that its kernel declares.
 std::span<const Feature> all_features();
 
