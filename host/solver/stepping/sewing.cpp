@@ -9,10 +9,17 @@
 namespace selvage {
 namespace {
 
-constexpr int patience = 12;            // steps without headway before seams are pulled harder
-constexpr double strongest_pull = 1e3;  // times the scene's own seam stiffness
-constexpr double press_bending = 100;   // times the fabric's bending rigidity
-constexpr int press_steps = 20;
+// How seams are pulled closed and pressed. Chosen by hand on the built-in garments; not measured one by one.
+struct SewingTuning {
+    static constexpr int stall_limit = 12;          // steps without headway before seams are pulled harder
+    static constexpr double headway = 0.98;         // factor by which the largest gap must shrink to count as headway
+    static constexpr double stiffness_growth = 2;   // factor of the seam's stiffness when it is pulled harder
+    static constexpr double limit_growth = 1.5;     // factor of the seam's force limit at the same time
+    static constexpr double strongest_pull = 1e3;   // largest stiffness, times the scene's own seam stiffness
+    static constexpr double closed_at_once = 0.25;  // times the gap of a closed seam: below it nothing has to settle
+    static constexpr double press_bending = 100;    // times the fabric's bending rigidity: laps at seams fold open
+    static constexpr int press_steps = 20;          // of pressing
+};
 
 }  // namespace
 
@@ -33,17 +40,18 @@ namespace {
 
 bool closed(const SewingOptions& options, const SewingProgress& progress)
 {
-    const bool settled = progress.energy_change <= options.energy_tolerance || progress.steps_without_gain >= patience;
-    return progress.gap <= options.closed && (settled || progress.gap <= 0.25 * options.closed);
+    const bool settled =
+        progress.energy_change <= options.energy_tolerance || progress.steps_without_gain >= SewingTuning::stall_limit;
+    return progress.gap <= options.closed && (settled || progress.gap <= SewingTuning::closed_at_once * options.closed);
 }
 
 void pull_harder_if_stuck(Phase& phase, const SewingOptions& options, SewingProgress& progress)
 {
-    if (progress.gap <= options.closed || progress.steps_without_gain < patience ||
-        phase.params().seam.stiffness >= strongest_pull * options.first_stiffness)
+    if (progress.gap <= options.closed || progress.steps_without_gain < SewingTuning::stall_limit ||
+        phase.params().seam.stiffness >= SewingTuning::strongest_pull * options.first_stiffness)
         return;
-    phase.params().seam.stiffness *= 2;
-    phase.params().seam.force_limit *= 1.5;
+    phase.params().seam.stiffness *= SewingTuning::stiffness_growth;
+    phase.params().seam.force_limit *= SewingTuning::limit_growth;
     progress.steps_without_gain = 0;
 }
 
@@ -54,7 +62,8 @@ void note_step(const Phase& phase, SewingProgress& progress)
     progress.gap = largest_gap(phase);
     progress.energy_change = std::abs(energy - progress.elastic_energy) / std::max(energy, 1e-12);
     progress.elastic_energy = energy;
-    progress.steps_without_gain = progress.gap < 0.98 * progress.best_gap ? 0 : progress.steps_without_gain + 1;
+    progress.steps_without_gain =
+        progress.gap < SewingTuning::headway * progress.best_gap ? 0 : progress.steps_without_gain + 1;
     progress.best_gap = std::min(progress.best_gap, progress.gap);
 }
 
@@ -85,9 +94,9 @@ PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progres
 PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const AfterStep& after_step)
 {
     const Params worn = phase.params();
-    phase.params().bending.scale *= press_bending;
-    phase.params().plate.scale *= press_bending;
-    phase.params().spring.bend_scale *= press_bending;
+    phase.params().bending.scale *= SewingTuning::press_bending;
+    phase.params().plate.scale *= SewingTuning::press_bending;
+    phase.params().spring.bend_scale *= SewingTuning::press_bending;
     phase.params().friction.scale = 0;
     phase.params().velocity_rule.friction = 0;
     phase.params().bending_hysteresis.scale = 0;
@@ -99,7 +108,7 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
     newton.max_iterations = 2;
     const Clock start = phase.system().clock();  // pressing takes none of the run's time
     PhaseEnd end = PhaseEnd::reached;
-    while (progress.step < press_steps && end == PhaseEnd::reached) {
+    while (progress.step < SewingTuning::press_steps && end == PhaseEnd::reached) {
         control.advance(step, newton, false);
         phase.system().clock() = start;
         ++progress.step;
