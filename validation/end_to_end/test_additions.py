@@ -216,7 +216,8 @@ class Copy:
             for output in fresh:
                 waiting |= symbols_needed(self.folder / made[output])
         link = shlex.split(ninja("-t", "commands", "selvage").splitlines()[-1])
-        libraries = [word for word in link if re.match(r"-l|-Wl,|.*\.so[.\d]*$", word)]
+        # Newer CMake also has the linker write a list of what it read, for the link of the program alone.
+        libraries = [word for word in link if re.match(r"-l|-Wl,(?!--dependency-file)|.*\.so[.\d]*$", word)]
         kept = [BUILD / output for output in used - changed]
         subprocess.run(["c++", "-o", "program", *made.values(), *kept, *libraries], cwd=self.folder, check=True)
         return self.folder / "program"
