@@ -1,5 +1,8 @@
 #include "io/run/checkpoint.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "io/atomic_file.hpp"
 #include "io/errors.hpp"
 #include "io/run/hdf5_file.hpp"
@@ -20,6 +23,8 @@ Checkpoint read_groups(const Hdf5File& file)
     for (const std::string& name : file.members(reals)) checkpoint.reals[name] = file.read_reals(member(reals, name));
     for (const std::string& name : file.members(integers)) {
         const std::vector<std::int64_t> values = file.read_integers(member(integers, name));
+        if (!std::ranges::all_of(values, [](std::int64_t value) { return std::in_range<int>(value); }))
+            file.refuse(member(integers, name), "a number beyond 32 bits", "integers of 32 bits");
         checkpoint.integers[name].assign(values.begin(), values.end());
     }
     for (const std::string& name : file.members(words)) checkpoint.words[name] = file.text(member(words, name), "text");
@@ -61,19 +66,11 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
 
 Checkpoint read_checkpoint(const std::string& path)
 {
-    const auto refuse = [&](const std::string& found) -> InputError {
-        return {{path, 0, 0, {}}, found, "a checkpoint written by selvage"};
-    };
     const Hdf5File file(path, Hdf5Access::read);
-    try {
-        const std::vector<std::string> found = file.texts("/", "schema");
-        if (found.size() != 1 || found.front() != schema) throw refuse("another kind of HDF5 file");
-        return read_groups(file);
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::runtime_error& fault) {
-        throw refuse(fault.what());
-    }
+    const std::vector<std::string> found = file.texts("/", "schema");
+    if (found.size() != 1 || found.front() != schema)
+        throw InputError({path, 0, 0, {}}, "another kind of HDF5 file", "a checkpoint written by selvage");
+    return read_groups(file);
 }
 
 }  // namespace selvage

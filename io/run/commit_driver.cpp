@@ -179,10 +179,11 @@ H5FD_t* driver_open(const char* name, unsigned flags, hid_t, haddr_t)
     if (flags & H5F_ACC_TRUNC) mode |= O_TRUNC;
     if (flags & H5F_ACC_CREAT) mode |= O_CREAT;
     if (flags & H5F_ACC_EXCL) mode |= O_EXCL;
-    const int descriptor = ::open(name, mode | O_CLOEXEC, 0666);
+    const int descriptor = ::open(name, mode | O_CLOEXEC | O_NONBLOCK, 0666);  // waits for no other end of a pipe
     if (descriptor < 0) return nullptr;
     struct stat status {};
-    CommitFile* file = ::fstat(descriptor, &status) == 0 ? new (std::nothrow) CommitFile{} : nullptr;
+    const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+    CommitFile* file = is_file ? new (std::nothrow) CommitFile{} : nullptr;
     if (!file) {
         ::close(descriptor);
         return nullptr;

@@ -1,6 +1,9 @@
-#include <stdexcept>
+#include <algorithm>
+#include <climits>
+#include <cmath>
 
 #include "io/errors.hpp"
+#include "io/run/hdf5_checks.hpp"
 #include "io/run/trajectory.hpp"
 #include "io/run/trajectory_format.hpp"
 
@@ -9,6 +12,8 @@ namespace selvage {
 using namespace trajectory_format;
 
 namespace {
+
+constexpr double largest_position = 1e9;  // [m], as in OBJ files
 
 PositionGrid grid_with_spacing(double spacing)
 {
@@ -28,16 +33,40 @@ std::vector<Row> rows_of(const std::vector<Value>& values)
     return rows;
 }
 
+int read_point_count(const Hdf5File& file)
+{
+    constexpr const char* name = "/VTKHDF/NumberOfPoints";
+    const std::int64_t count = file.read_integers(name, {1}).front();
+    // Each point has at least its panel in the file.
+    if (count < 1 || std::uintmax_t(count) > std::min(most_file_expansion * file.size(), std::uintmax_t(INT_MAX)))
+        file.refuse(name, std::to_string(count), "a number of points that the file can hold");
+    return int(count);
+}
+
+int read_frame_count(const Hdf5File& file)
+{
+    const std::int64_t count = file.integer(steps, "NSteps");
+    if (count < 0 || std::uintmax_t(count) > file.size())
+        file.refuse(std::string(steps) + "@NSteps", std::to_string(count), "a number of frames that the file can hold");
+    return int(count);
+}
+
 TrajectoryLayout read_layout(const Hdf5File& file)
 {
+    constexpr hsize_t any = Hdf5File::any;
     TrajectoryLayout layout;
-    layout.point_count = int(file.read_integers("/VTKHDF/NumberOfPoints").at(0));
-    layout.triangles = rows_of<Face>(file.read_integers("/selvage/triangles"));
-    layout.panel_coordinates = rows_of<Vec2>(file.read_reals("/VTKHDF/PointData/panel_coordinates"));
-    for (const std::int64_t panel : file.read_integers("/VTKHDF/PointData/panel")) layout.panel.push_back(int(panel));
-    layout.rest_edge_lengths = rows_of<std::array<double, 3>>(file.read_reals("/VTKHDF/CellData/rest_edge_lengths"));
-    layout.seam_pairs = rows_of<std::array<int, 2>>(file.read_integers("/selvage/seam_pairs"));
+    layout.point_count = read_point_count(file);
+    const auto points = hsize_t(layout.point_count);
+    layout.triangles = rows_of<Face>(file.read_indices("/selvage/triangles", {any, 3}, layout.point_count, "point"));
+    const hsize_t triangles = layout.triangles.size();
     layout.panel_names = file.texts("/selvage", "panel_names");
+    const std::int64_t panels = layout.panel_names.empty() ? INT_MAX : std::int64_t(layout.panel_names.size());
+    layout.panel_coordinates = rows_of<Vec2>(file.read_reals("/VTKHDF/PointData/panel_coordinates", {points, 2}));
+    layout.panel = file.read_indices("/VTKHDF/PointData/panel", {points}, panels, "panel");
+    layout.rest_edge_lengths =
+        rows_of<std::array<double, 3>>(file.read_reals("/VTKHDF/CellData/rest_edge_lengths", {triangles, 3}));
+    layout.seam_pairs =
+        rows_of<std::array<int, 2>>(file.read_indices("/selvage/seam_pairs", {any, 2}, layout.point_count, "point"));
     layout.scene_text = file.text("/selvage", "scene_text");
     layout.scene_file = file.text("/selvage", "scene_file");
     layout.version = file.text("/selvage", "version");
@@ -45,18 +74,43 @@ TrajectoryLayout read_layout(const Hdf5File& file)
     return layout;
 }
 
-std::vector<FrameScalars> read_scalars(const Hdf5File& file, std::size_t frame_count)
+std::vector<FrameScalars> read_scalars(const Hdf5File& file)
 {
-    const auto time = file.read_reals("/selvage/time"), kinetic = file.read_reals("/selvage/kinetic_energy"),
-               total = file.read_reals("/selvage/total_energy"), residual = file.read_reals("/selvage/residual"),
-               wall = file.read_reals("/selvage/wall_seconds");
-    const auto contacts = file.read_integers("/selvage/contacts"),
-               iterations = file.read_integers("/selvage/iterations");
+    const auto frame_count = hsize_t(read_frame_count(file));
+    const auto column = [&](const char* name) { return file.read_reals(name, {Hdf5File::any}, frame_count); };
+    const auto whole = [&](const char* name) { return file.read_integers(name, {Hdf5File::any}, frame_count); };
+    const auto time = column("/selvage/time"), kinetic = column("/selvage/kinetic_energy"),
+               total = column("/selvage/total_energy"), residual = column("/selvage/residual"),
+               wall = column("/selvage/wall_seconds");
+    const auto contacts = whole("/selvage/contacts"), iterations = whole("/selvage/iterations");
     std::vector<FrameScalars> scalars(frame_count);
-    for (std::size_t frame = 0; frame < frame_count; ++frame)
-        scalars[frame] = {time.at(frame), kinetic.at(frame),       total.at(frame),          residual.at(frame),
-                          wall.at(frame), int(contacts.at(frame)), int(iterations.at(frame))};
+    for (std::size_t frame = 0; frame < frame_count; ++frame) {
+        if (!std::isfinite(time[frame]) || (frame > 0 && !(time[frame] > time[frame - 1])))
+            file.refuse("/selvage/time[" + std::to_string(frame) + "]", std::to_string(time[frame]),
+                        "a later time than that of the frame before, in seconds");
+        scalars[frame] = {time[frame], kinetic[frame],       total[frame],          residual[frame],
+                          wall[frame], int(contacts[frame]), int(iterations[frame])};
+    }
     return scalars;
+}
+
+// Frames are read, and copied on resuming, as whole chunks.
+void require_frames(const Hdf5File& file, int point_count, std::size_t frame_count)
+{
+    const std::vector<hsize_t> shape = file.shape(points), chunk{hsize_t(point_count), 3};
+    if (shape.size() != 2 || shape[1] != 3 || shape[0] / chunk[0] < frame_count)
+        file.refuse(
+            points, shape.empty() ? "a single number" : std::to_string(shape[0]) + " rows",
+            std::to_string(frame_count) + " frames of " + std::to_string(point_count) + " points with 3 numbers");
+    const Hdf5Id dataset = open_points(file);
+    const Hdf5Id properties(H5Dget_create_plist(dataset), H5Pclose, points);
+    std::array<hsize_t, 2> found{};
+    if (H5Pget_layout(properties) != H5D_CHUNKED || H5Pget_chunk(properties, 2, found.data()) != 2 ||
+        !std::ranges::equal(found, chunk))
+        file.refuse(points, "another storage", "one chunk for each frame");
+    const std::uintmax_t bytes = saturated_product(frame_count, 3 * sizeof(float) * chunk[0]);
+    if (const Hdf5Fault fault = check_dataset(dataset, bytes, file.size(), UINTMAX_MAX))
+        file.refuse(points, fault.found, fault.expected);
 }
 
 InputError not_a_run(const std::string& path, const std::string& found)
@@ -73,16 +127,9 @@ TrajectoryReader::TrajectoryReader(const std::string& path) : file_(std::make_un
 {
     if (!file_->exists("/selvage/triangles") || !file_->exists(points))
         throw not_a_run(path, "an HDF5 file without /selvage/triangles and /VTKHDF/Points");
-    try {
-        layout_ = read_layout(*file_);
-        scalars_ = read_scalars(*file_, std::size_t(file_->integer(steps, "NSteps")));
-        if (file_->shape(points).at(0) < hsize_t(layout_.point_count) * scalars_.size())
-            throw std::runtime_error("fewer positions than frames");
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::exception& fault) {
-        throw not_a_run(path, fault.what());
-    }
+    layout_ = read_layout(*file_);
+    scalars_ = read_scalars(*file_);
+    require_frames(*file_, layout_.point_count, scalars_.size());
 }
 
 void TrajectoryReader::check_frame(int frame) const
@@ -102,7 +149,11 @@ std::vector<Vec3> TrajectoryReader::read_frame(int frame) const
     require_hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), points);
     const Hdf5Id target(H5Screate_simple(2, count.data(), nullptr), H5Sclose, points);
     std::vector<double> values(3 * std::size_t(layout_.point_count));
-    require_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()), file_->path());
+    if (H5Dread(dataset, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()) < 0)
+        file_->refuse(points, "damaged data of frame " + std::to_string(frame), "positions");
+    if (!std::ranges::all_of(values, [](double x) { return std::abs(x) <= largest_position; }))
+        file_->refuse(points, "a position of frame " + std::to_string(frame) + " that is not finite or beyond 1e9 m",
+                      "positions in metres");
     return rows_of<Vec3>(values);
 }
 
@@ -112,7 +163,8 @@ std::vector<unsigned char> TrajectoryReader::read_raw_frame(int frame, std::uint
     const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(layout_.point_count), 0};
     const Hdf5Id dataset = open_points(*file_);
     hsize_t size = 0;
-    require_hdf5(H5Dget_chunk_storage_size(dataset, start.data(), &size), file_->path());
+    if (H5Dget_chunk_storage_size(dataset, start.data(), &size) < 0 || size > file_->size())
+        file_->refuse(points, "damaged data of frame " + std::to_string(frame), "a chunk of positions");
     std::vector<unsigned char> bytes(size);
 #if H5_VERSION_GE(2, 0, 0)  // the name has gone to a function that is told the size
     std::size_t room = bytes.size();
@@ -120,7 +172,7 @@ std::vector<unsigned char> TrajectoryReader::read_raw_frame(int frame, std::uint
 #else
     const herr_t status = H5Dread_chunk(dataset, H5P_DEFAULT, start.data(), &filter_mask, bytes.data());
 #endif
-    require_hdf5(status, file_->path());
+    if (status < 0) file_->refuse(points, "damaged data of frame " + std::to_string(frame), "a chunk of positions");
     return bytes;
 }
 
