@@ -7,14 +7,11 @@
 namespace selvage {
 namespace {
 
-std::string describe(const InputPlace& place, std::string_view found, std::string_view expected,
+std::string sentence(const InputPlace& place, std::string_view found, std::string_view expected,
                      std::string_view nearest)
 {
-    std::string text = place.file;
-    if (place.line > 0) text += ":" + std::to_string(place.line);
-    if (place.line > 0 && place.column > 0) text += ":" + std::to_string(place.column);
+    std::string text = describe(place);
     if (!text.empty()) text += ": ";
-    if (!place.key.empty()) text += place.key + ": ";
     text += "found " + std::string(found) + ", expected " + std::string(expected);
     if (!nearest.empty()) text += " (did you mean `" + std::string(nearest) + "`?)";
     return text;
@@ -36,9 +33,18 @@ int edit_distance(std::string_view a, std::string_view b)
 
 }  // namespace
 
+std::string describe(const InputPlace& place)
+{
+    std::string text = place.file;
+    if (place.line > 0) text += ":" + std::to_string(place.line);
+    if (place.line > 0 && place.column > 0) text += ":" + std::to_string(place.column);
+    if (!text.empty() && !place.key.empty()) text += ": ";
+    return text + place.key;
+}
+
 InputError::InputError(const InputPlace& place, std::string_view found, std::string_view expected,
                        std::string_view nearest)
-    : std::runtime_error(describe(place, found, expected, nearest))
+    : std::runtime_error(sentence(place, found, expected, nearest))
 {
 }
 

@@ -14,6 +14,9 @@ struct InputPlace {
     std::string key;   ///< Key path such as `solver.step` or `pattern.panels.front.edges[3]`.
 };
 
+/// Returns a place as `file:line:column: key`, without the parts that are not known.
+std::string describe(const InputPlace& place);
+
 /// Bad usage or input: the program ends with exit code 2 and this message.
 class InputError : public std::runtime_error {
 public:

@@ -161,7 +161,7 @@ Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::st
                        double max_vertices)
 {
     Cloth cloth;
-    for (const PatternPanel& panel : pattern.panels) check_outline(panel, file, cloth.warnings);
+    for (const PatternPanel& panel : pattern.panels) check_outline(panel, file, cloth.findings);
     check_stitches(pattern, file);
     check_fabric_names(pattern, panel_fabrics);
     std::vector<std::vector<double>> lengths;

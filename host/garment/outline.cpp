@@ -162,7 +162,7 @@ void check_loop(const PatternPanel& panel, const std::string& file)
     }
 }
 
-void check_edge(const PatternPanel& panel, int index, const std::string& file, std::vector<std::string>& warnings)
+void check_edge(const PatternPanel& panel, int index, const std::string& file, std::vector<Finding>& findings)
 {
     const PatternEdge& edge = panel.edges[index];
     const std::string key = edge_key(panel, index);
@@ -176,19 +176,21 @@ void check_edge(const PatternPanel& panel, int index, const std::string& file, s
         throw InputError({file, 0, 0, key}, "a control point that is not finite", "two numbers");
     const EdgePath path(panel, edge);
     if (path.radius_enlarged())
-        warnings.push_back(key + ": arc radius " + std::to_string(edge.radius) +
-                           " m is less than half the distance of its ends; using " +
-                           std::to_string(path.length() / std::numbers::pi) + " m");
+        findings.push_back({"arc",
+                            {file, 0, 0, key},
+                            "arc radius " + std::to_string(edge.radius) +
+                                " m is less than half the distance of its ends; using " +
+                                std::to_string(path.length() / std::numbers::pi) + " m"});
 }
 
 }  // namespace
 
-void check_outline(const PatternPanel& panel, const std::string& file, std::vector<std::string>& warnings)
+void check_outline(const PatternPanel& panel, const std::string& file, std::vector<Finding>& findings)
 {
     check_loop(panel, file);
     std::vector<int> segments, edge_of_side;
     for (int edge = 0; edge < int(panel.edges.size()); ++edge) {
-        check_edge(panel, edge, file, warnings);
+        check_edge(panel, edge, file, findings);
         segments.push_back(panel.edges[edge].curve == EdgeCurve::straight ? 1 : check_segments);
         edge_of_side.insert(edge_of_side.end(), segments.back(), edge);
     }

@@ -47,10 +47,12 @@ void warn_if_crossed(const Pattern& pattern, int index, const OutlineSamples& a,
     const double given = correlation(cloth, a.vertices, b.vertices, stitch.same_direction);
     if (!(given < crossed_correlation) || correlation(cloth, a.vertices, b.vertices, !stitch.same_direction) <= 0)
         return;
-    cloth.warnings.push_back(
-        stitch_key(index) + ": " + side_name(pattern, stitch.a) + " and " + side_name(pattern, stitch.b) +
-        " cross when sewn, for as placed they run in opposite directions; " + "to turn the seam, " +
-        (stitch.same_direction ? "remove" : "add") + " the stitch's third element `right_wrong`");
+    cloth.findings.push_back({"seam",
+                              {"", 0, 0, stitch_key(index)},
+                              side_name(pattern, stitch.a) + " and " + side_name(pattern, stitch.b) +
+                                  " cross when sewn, for as placed they run in opposite directions",
+                              std::string("to turn the seam, ") + (stitch.same_direction ? "remove" : "add") +
+                                  " the stitch's third element `right_wrong`"});
 }
 
 }  // namespace

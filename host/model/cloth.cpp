@@ -21,7 +21,7 @@ void append_cloth(Cloth& to, const Cloth& other)
     const auto append = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
     append(to.panel_coordinates, other.panel_coordinates);
     append(to.positions, other.positions);
-    append(to.warnings, other.warnings);
+    append(to.findings, other.findings);
     for (const Face& face : other.faces)
         to.faces.push_back({face[0] + vertices, face[1] + vertices, face[2] + vertices});
     for (ClothPanel panel : other.panels) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "io/finding.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
@@ -56,7 +57,7 @@ struct Cloth {
     std::vector<std::array<int, 2>> seam_pairs;  ///< Vertices that are sewn to each other.
     std::vector<int> pinned;                     ///< Vertices with prescribed positions, sorted.
     std::vector<PinMotion> pin_motions;          ///< In the order in which they are applied.
-    std::vector<std::string> warnings;           ///< Unusual input that could be used.
+    std::vector<Finding> findings;               ///< Unusual input that could be used.
 };
 
 /// Returns the faces of a cloth, counter-clockwise as seen from its outside, in the order of Cloth::faces.

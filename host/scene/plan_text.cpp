@@ -36,7 +36,8 @@ std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan
         json["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});
     json["embree"] = plan.embree;
     json["peak_bytes"] = plan.peak_bytes;
-    json["warnings"] = model.warnings;
+    json["warnings"] = nlohmann::json::array();
+    for (const Finding& finding : model.findings) json["warnings"].push_back(describe(finding));
     return json.dump(2) + "\n";
 }
 
@@ -59,7 +60,7 @@ std::string plan_text(const Scene& scene, const SceneModel& model, const RunPlan
     for (const SkippedFeature& skipped : plan.skipped)
         text += fmt::format("  {:<14} {}\n", skipped.name, skipped.reason);
     text += fmt::format("\nmemory of the whole run: about {:.0f} MiB\n", mebibytes(plan.peak_bytes));
-    for (const std::string& warning : model.warnings) text += "warning: " + warning + "\n";
+    for (const Finding& finding : model.findings) text += "warning: " + describe(finding) + "\n";
     return text;
 }
 

@@ -120,7 +120,7 @@ void add_ripple(Cloth& cloth)
 Cloth garment_copy(Cloth garment, const GarmentScene& scene, int copy)
 {
     if (copy == 0) return garment;
-    garment.warnings.clear();
+    garment.findings.clear();
     for (Vec3& x : garment.positions) x += copy * scene.copy_offset;
     for (ClothPanel& panel : garment.panels) panel.name += fmt::format("_{}", copy + 1);
     return garment;
@@ -177,17 +177,18 @@ SceneModel build_scene_model(const Scene& scene)
         result.cloth_model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
     result.cloth_model.bodies = build_bodies(scene);
     add_coarser_levels(scene, pattern, result.cloth_model);
-    result.warnings = pattern.warnings;
-    const auto& odd = result.cloth_model.cloth.warnings;
-    result.warnings.insert(result.warnings.end(), odd.begin(), odd.end());
+    result.findings = pattern.findings;
+    append_findings(result.findings, result.cloth_model.cloth.findings);
     result.sews = !result.cloth_model.cloth.seam_pairs.empty();
     result.edge_length = typical_edge(result.cloth_model.cloth);
     result.least_height = least_height(result.cloth_model.cloth);
     if (scene.contact.self && result.least_height < sliver * result.edge_length)
-        result.warnings.push_back(
-            fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
-                        "presses on cloth from less than that height only",
-                        result.least_height, result.edge_length));
+        result.findings.push_back(
+            {"triangle",
+             {},
+             fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
+                         "presses on cloth from less than that height only",
+                         result.least_height, result.edge_length)});
     if (!scene.has_garment()) {
         add_ripple(result.cloth_model.cloth);
         for (Cloth& coarser : result.cloth_model.coarser) add_ripple(coarser);

@@ -9,10 +9,10 @@ namespace selvage {
 
 struct Scene;
 
-/// The cloth and the bodies of a scene, assembled; what was odd but usable is in `warnings`.
+/// The cloth and the bodies of a scene, assembled; what was odd but usable is in `findings`.
 struct SceneModel {
     ClothModel cloth_model;
-    std::vector<std::string> warnings;
+    std::vector<Finding> findings;
     bool sews = false;           ///< There are seams to close before draping.
     double edge_length = 0.01;   ///< Typical rest edge of the finest cloth [m].
     double least_height = 0.01;  ///< Of any triangle of the finest cloth at rest [m].

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "io/finding.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
@@ -55,7 +56,7 @@ struct Pattern {
     std::string name;
     std::vector<PatternPanel> panels;
     std::vector<PatternStitch> stitches;
-    std::vector<std::string> warnings;  ///< Values that the reader found unusual but could use.
+    std::vector<Finding> findings;  ///< Values that the reader found unusual but could use.
 };
 
 }  // namespace selvage

@@ -45,7 +45,7 @@ Vec2 control_point(const JsonCursor& cursor, const PatternUnits& units, const Pa
 }
 
 void read_arc(const JsonCursor& params, const PatternUnits& units, const PatternPanel& panel, PatternEdge& edge,
-              std::vector<std::string>& warnings)
+              std::vector<Finding>& findings)
 {
     const std::string expected = "[radius, large_arc, right]";
     if (params.list(expected).size() != 3) params.refuse(expected);
@@ -58,12 +58,12 @@ void read_arc(const JsonCursor& params, const PatternUnits& units, const Pattern
         radius.refuse("at least half of the edge's length, " + rounded_text(least / units.scale) +
                       ", in the pattern's unit");
     if (edge.radius < 0.9999 * least)
-        warnings.push_back(radius.place().key + " is less than half of the edge's length and was enlarged to it");
+        findings.push_back({"arc", radius.place(), "is less than half of the edge's length and was enlarged to it"});
     edge.radius = std::max(edge.radius, least);
 }
 
 void read_curvature(const JsonCursor& cursor, const PatternUnits& units, const PatternPanel& panel, PatternEdge& edge,
-                    std::vector<std::string>& warnings)
+                    std::vector<Finding>& findings)
 {
     // Older files write a quadratic curve as a bare control point.
     if (cursor.value().is_array()) {
@@ -77,7 +77,7 @@ void read_curvature(const JsonCursor& cursor, const PatternUnits& units, const P
     const std::string kind = type.text("quadratic, cubic or circle");
     if (kind == "circle") {
         edge.curve = EdgeCurve::arc;
-        read_arc(params, units, panel, edge, warnings);
+        read_arc(params, units, panel, edge, findings);
         return;
     }
     if (kind != "quadratic" && kind != "cubic") type.refuse("quadratic, cubic or circle", nearest_name(kind, kinds));
@@ -117,7 +117,7 @@ void check_loop(const JsonCursor& cursor, const PatternPanel& panel)
 }  // namespace
 
 void read_edges(const JsonCursor& cursor, const PatternUnits& units, PatternPanel& panel,
-                std::vector<std::string>& warnings)
+                std::vector<Finding>& findings)
 {
     cursor.list("a list of edges");
     if (cursor.size() < 2) cursor.refuse_as(std::to_string(cursor.size()) + " edges", "at least 2 edges");
@@ -125,7 +125,7 @@ void read_edges(const JsonCursor& cursor, const PatternUnits& units, PatternPane
         const JsonCursor item = cursor.at(k);
         PatternEdge& edge = panel.edges.emplace_back();
         read_endpoints(item.at("endpoints"), panel, edge);
-        if (item.has("curvature")) read_curvature(item.at("curvature"), units, panel, edge, warnings);
+        if (item.has("curvature")) read_curvature(item.at("curvature"), units, panel, edge, findings);
     }
     check_loop(cursor, panel);
 }

@@ -15,9 +15,9 @@ struct PatternUnits {
 
 /// Reads the closed outline of a panel whose vertices are known.
 /// @param panel     its vertices are read, its edges are filled
-/// @param warnings  unusual but usable values are added to it
+/// @param findings  unusual but usable values are added to it
 /// @throws InputError for wrong values, an open or self-crossing loop, edges without length
 void read_edges(const JsonCursor& cursor, const PatternUnits& units, PatternPanel& panel,
-                std::vector<std::string>& warnings);
+                std::vector<Finding>& findings);
 
 }  // namespace selvage

@@ -114,7 +114,7 @@ PatternPanel PatternReader::read_panel(const std::string& name, const JsonCursor
     PatternPanel panel;
     panel.name = name;
     read_vertices(cursor.at("vertices"), panel);
-    read_edges(cursor.at("edges"), units_, panel, pattern_.warnings);
+    read_edges(cursor.at("edges"), units_, panel, pattern_.findings);
     read_placement(cursor, panel);
     return panel;
 }
@@ -155,9 +155,11 @@ void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel
         axes_used += std::abs(std::remainder(angles[axis], 360)) > 1e-9;
     }
     if (axes_used > 1)
-        pattern_.warnings.push_back(rotation.place().key + " turns about " + std::to_string(axes_used) +
-                                    " axes, for which writers of this format use different orders: taken as `" +
-                                    text_of(conventions_.rotation_order) + "`, see garment.rotation_order");
+        pattern_.findings.push_back({"rotation", rotation.place(),
+                                     "turns about " + std::to_string(axes_used) +
+                                         " axes, for which writers of this format use different orders: taken as `" +
+                                         text_of(conventions_.rotation_order) + "`",
+                                     "garment.rotation_order sets the order"});
     const Mat3 up = z_up_from(find_word<Axis>(word_of(conventions_.up)).value_or(Axis::y));
     panel.rotation = up * turn;
     panel.translation = up * moved;

@@ -14,6 +14,7 @@ LAYERS = [
     ["host/mesh"],
     ["host/collision", "host/mannequin"],
     ["host/solver", "host/garment"],
+    ["host/examine"],
     ["host/scene"],
     ["host/run"],
     ["host/commands"],

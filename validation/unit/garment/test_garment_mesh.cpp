@@ -176,8 +176,8 @@ TEST_CASE("an arc whose radius is too small becomes a half circle and a warning"
     PatternPanel panel = rectangle("front", 0.2, 0.2);
     make_arc(panel.edges[0], 0.05, false, true);
     const Cloth cloth = assemble(pattern_of({panel}), 0.02);
-    REQUIRE(cloth.warnings.size() == 1);
-    CHECK(cloth.warnings[0].find("pattern.panels.front.edges[0]") != std::string::npos);
+    REQUIRE(cloth.findings.size() == 1);
+    CHECK(describe(cloth.findings[0]).find("pattern.panels.front.edges[0]") != std::string::npos);
     CHECK(cloth.outline[0].length == Approx(0.1 * std::numbers::pi));
 }
 
@@ -305,15 +305,15 @@ TEST_CASE("both sides of a seam are sampled alike, in opposite directions unless
         CHECK(cloth.panel_coordinates[first].y() / 0.5 ==
               Approx(cloth.panel_coordinates[second].y() / 0.8).margin(1e-9));
     }
-    CHECK(cloth.warnings.empty());
+    CHECK(cloth.findings.empty());
 
     pattern.stitches[0].same_direction = true;
     const Cloth crossed = assemble(pattern, 0.02);
     CHECK(crossed.seam_pairs.front()[1] == b.vertices.front());
-    REQUIRE(crossed.warnings.size() == 1);
-    CHECK(crossed.warnings[0].find("left.edges[1]") != std::string::npos);
-    CHECK(crossed.warnings[0].find("right.edges[3]") != std::string::npos);
-    CHECK(crossed.warnings[0].find("right_wrong") != std::string::npos);
+    REQUIRE(crossed.findings.size() == 1);
+    CHECK(describe(crossed.findings[0]).find("left.edges[1]") != std::string::npos);
+    CHECK(describe(crossed.findings[0]).find("right.edges[3]") != std::string::npos);
+    CHECK(describe(crossed.findings[0]).find("right_wrong") != std::string::npos);
 }
 
 TEST_CASE("a dart does not pair its tip with itself and no pair is listed twice")
@@ -332,7 +332,7 @@ TEST_CASE("a dart does not pair its tip with itself and no pair is listed twice"
     }
     CHECK(cloth.seams[0].pair_count == int(cloth.outline[cloth.seams[0].side_a].vertices.size()) - 1);
     CHECK(cloth.seams[2].pair_count == int(cloth.outline[cloth.seams[2].side_a].vertices.size()) - 1);
-    CHECK(cloth.warnings.empty());
+    CHECK(cloth.findings.empty());
 }
 
 TEST_CASE("faulty patterns are refused with the place of the fault")

@@ -71,7 +71,7 @@ TEST_CASE("a pattern's lengths become metres and its up direction z")
     CHECK((front.rotation * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm() < 1e-12);
     CHECK((front.rotation * Vec3(1, 0, 0) - Vec3(1, 0, 0)).norm() < 1e-12);
     CHECK(front.rotation.determinant() == Approx(1));
-    CHECK(pattern.warnings.empty());
+    CHECK(pattern.findings.empty());
 }
 
 TEST_CASE("units_in_meter scales every length")
@@ -151,10 +151,10 @@ TEST_CASE("rotations are applied as Rz Ry Rx, with a warning where the order mat
     const Pattern pattern = read_variant(variant, conventions);
     // Rx maps y to z, then Ry maps z to x.
     CHECK((pattern.panels[0].rotation * Vec3(0, 1, 0) - Vec3(1, 0, 0)).norm() < 1e-12);
-    REQUIRE(pattern.warnings.size() == 1);
-    CHECK(pattern.warnings[0].find("pattern.panels.front.rotation") != std::string::npos);
+    REQUIRE(pattern.findings.size() == 1);
+    CHECK(describe(pattern.findings[0]).find("pattern.panels.front.rotation") != std::string::npos);
     conventions.rotation_order = RotationOrder::zyx;
     CHECK((read_variant(variant, conventions).panels[0].rotation * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm() < 1e-12);
     variant.rotation = "[0, 45, 360]";
-    CHECK(read_variant(variant).warnings.empty());
+    CHECK(read_variant(variant).findings.empty());
 }

@@ -70,9 +70,9 @@ TEST_CASE("cloth does not press on its own neighbours where a triangle is narrow
     const Scene scene = read_scene(file, std::vector<std::string>{});
     const SceneModel model = build_scene_model(scene);
     CHECK(model.least_height == Approx(1e-5).epsilon(1e-2));
-    REQUIRE(model.warnings.size() == 1);
+    REQUIRE(model.findings.size() == 1);
     CHECK(phase_options(scene, model, false).params.cloth_contact.gap == Approx(0.8 * model.least_height));
-    CHECK(model.warnings[0].find("1e-05 m high") != std::string::npos);
+    CHECK(describe(model.findings[0]).find("1e-05 m high") != std::string::npos);
 }
 
 TEST_CASE("with triangles of ordinary shape the gap of cloth on cloth is the one in the scene")
@@ -81,7 +81,7 @@ TEST_CASE("with triangles of ordinary shape the gap of cloth on cloth is the one
         const std::vector<std::string> overrides = {"sheet.resolution=33", std::string("sheet.mesh_family=") + family};
         const Scene scene = read_scene("builtin:hanging", overrides);
         const SceneModel model = build_scene_model(scene);
-        CHECK(model.warnings.empty());
+        CHECK(model.findings.empty());
         CHECK(phase_options(scene, model, false).params.cloth_contact.gap == scene.contact.gap);
     }
 }
