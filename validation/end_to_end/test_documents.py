@@ -5,6 +5,7 @@ import unittest
 from sources import ROOT
 
 DOCUMENTS = ["README.md", "CONTRIBUTING.md"]
+PAGES = sorted((ROOT / "docs").glob("*.md"))
 # A path in backticks, below one of the project's folders; NAME and AREA stand for what the reader adds.
 PATH = re.compile(r"`((?:kernels|io|host|validation|bench|docs|\.ci)/[\w./-]*)`")
 PLACEHOLDER = re.compile(r"NAME|AREA")
@@ -20,6 +21,12 @@ class Documents(unittest.TestCase):
             text = (ROOT / name).read_text()
             self.assertTrue(PATH.search(text), f"{name} names no file")
             self.assertEqual(missing_paths(text), [], name)
+
+    def test_every_page_is_linked_from_the_readme(self):
+        readme = (ROOT / "README.md").read_text()
+        for page in PAGES:
+            self.assertIn(f"(docs/{page.name})", readme)
+            self.assertEqual(missing_paths(page.read_text()), [], page.name)
 
     def test_a_file_that_does_not_exist_is_found(self):
         self.assertEqual(missing_paths("see `host/nowhere.cpp` and `kernels/terms.h`"), ["host/nowhere.cpp"])
