@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "io/utf8.hpp"
+
 namespace selvage {
 namespace {
 
@@ -35,7 +37,7 @@ int edit_distance(std::string_view a, std::string_view b)
 
 std::string describe(const InputPlace& place)
 {
-    std::string text = place.file;
+    std::string text = valid_utf8(place.file);
     if (place.line > 0) text += ":" + std::to_string(place.line);
     if (place.line > 0 && place.column > 0) text += ":" + std::to_string(place.column);
     if (!text.empty() && !place.key.empty()) text += ": ";

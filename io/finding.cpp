@@ -1,5 +1,7 @@
 #include "io/finding.hpp"
 
+#include "io/utf8.hpp"
+
 namespace selvage {
 
 std::string describe(const Finding& finding)
@@ -7,7 +9,7 @@ std::string describe(const Finding& finding)
     const std::string place = describe(finding.place);
     std::string text = place + (place.empty() ? "" : ": ") + finding.text;
     if (!finding.way_on.empty()) text += "; " + finding.way_on;
-    return text;
+    return valid_utf8(text);
 }
 
 void append_findings(std::vector<Finding>& to, const std::vector<Finding>& from)

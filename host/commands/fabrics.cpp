@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -72,8 +73,14 @@ void print_text()
     for (const std::string& name : fabric_preset_names()) {
         const Fabric fabric = fabric_preset(name);
         std::cout << name << '\n';
-        for (const Property& property : properties)
-            std::cout << "    " << property.name << " = " << fabric.*property.value << " " << property.unit << '\n';
+        for (const Property& property : properties) {
+            const double value = fabric.*property.value;
+            std::cout << "    " << property.name << " = ";
+            if (std::isnan(value))
+                std::cout << "automatic\n";
+            else
+                std::cout << value << " " << property.unit << '\n';
+        }
         for (const CurveProperty& property : curves) print_curve(fabric.*property.curve, property);
         std::cout << "    source: " << fabric.source << '\n';
     }

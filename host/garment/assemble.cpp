@@ -157,12 +157,11 @@ Vec3 place_on_panel(const PatternPanel& panel, const Vec2& point)
 }
 
 Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::string& garment_fabric,
-                       const std::map<std::string, std::string>& panel_fabrics, const std::string& file,
-                       double max_vertices)
+                       const std::map<std::string, std::string>& panel_fabrics, double max_vertices)
 {
     Cloth cloth;
-    for (const PatternPanel& panel : pattern.panels) check_outline(panel, file, cloth.findings);
-    check_stitches(pattern, file);
+    for (const PatternPanel& panel : pattern.panels) check_outline(pattern, panel, cloth.findings);
+    check_stitches(pattern);
     check_fabric_names(pattern, panel_fabrics);
     std::vector<std::vector<double>> lengths;
     for (const PatternPanel& panel : pattern.panels) {

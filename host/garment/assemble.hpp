@@ -16,12 +16,10 @@ Vec3 place_on_panel(const PatternPanel& panel, const Vec2& point);
 /// @param edge_length     target edge length of the triangles [m], > 0
 /// @param garment_fabric  fabric of panels to which neither `panel_fabrics` nor the pattern gives one
 /// @param panel_fabrics   panel name to fabric name
-/// @param file            name of the pattern file for messages
 /// @param max_vertices    patterns that would need more at this edge length are refused
 /// @throws InputError for a faulty outline or stitch, an unknown panel name (key `garment.fabrics.NAME`), or an
 ///         edge length that is too fine or too coarse for the pattern (key `garment.resolution`)
 Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::string& garment_fabric,
-                       const std::map<std::string, std::string>& panel_fabrics, const std::string& file,
-                       double max_vertices = 20e6);
+                       const std::map<std::string, std::string>& panel_fabrics, double max_vertices = 20e6);
 
 }  // namespace selvage

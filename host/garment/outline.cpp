@@ -137,47 +137,47 @@ bool lies_on_a_line(const std::vector<Vec2>& points)
     });
 }
 
-void check_loop(const PatternPanel& panel, const std::string& file)
+void check_loop(const Pattern& pattern, const PatternPanel& panel)
 {
     const int vertex_count = int(panel.vertices.size()), edge_count = int(panel.edges.size());
     const std::string key = "pattern.panels." + panel.name;
     if (edge_count < 2)
-        throw InputError({file, 0, 0, key + ".edges"}, std::to_string(edge_count) + " edges", "at least two");
+        throw InputError(pattern.place(key + ".edges"), std::to_string(edge_count) + " edges", "at least two");
     for (int vertex = 0; vertex < vertex_count; ++vertex)
         if (!panel.vertices[vertex].allFinite())
-            throw InputError({file, 0, 0, key + ".vertices[" + std::to_string(vertex) + "]"},
+            throw InputError(pattern.place(key + ".vertices[" + std::to_string(vertex) + "]"),
                              "a coordinate that is not finite", "two numbers");
     for (int edge = 0; edge < edge_count; ++edge)
         for (const int end : {panel.edges[edge].start, panel.edges[edge].end})
             if (end < 0 || end >= vertex_count)
-                throw InputError({file, 0, 0, edge_key(panel, edge)}, "endpoint " + std::to_string(end),
+                throw InputError(pattern.place(edge_key(panel, edge)), "endpoint " + std::to_string(end),
                                  "an index into the panel's " + std::to_string(vertex_count) + " vertices");
     for (int edge = 0; edge < edge_count; ++edge) {
         const int following = (edge + 1) % edge_count, end = panel.edges[edge].end,
                   start = panel.edges[following].start;
         if (end != start)
             throw InputError(
-                {file, 0, 0, edge_key(panel, following)}, "an open outline: a start at vertex " + std::to_string(start),
+                pattern.place(edge_key(panel, following)),
+                "an open outline: a start at vertex " + std::to_string(start),
                 "a start at vertex " + std::to_string(end) + ", where edges[" + std::to_string(edge) + "] ends");
     }
 }
 
-void check_edge(const PatternPanel& panel, int index, const std::string& file, std::vector<Finding>& findings)
+void check_edge(const Pattern& pattern, const PatternPanel& panel, int index, std::vector<Finding>& findings)
 {
     const PatternEdge& edge = panel.edges[index];
     const std::string key = edge_key(panel, index);
     if (edge.start == edge.end || (panel.vertices[edge.start] - panel.vertices[edge.end]).norm() < shortest_edge)
-        throw InputError({file, 0, 0, key}, "an edge whose ends coincide", "two ends that are apart");
+        throw InputError(pattern.place(key), "an edge whose ends coincide", "two ends that are apart");
     if (edge.curve == EdgeCurve::arc && !(edge.radius > 0 && std::isfinite(edge.radius)))
-        throw InputError({file, 0, 0, key}, "an arc of radius " + std::to_string(edge.radius) + " m",
+        throw InputError(pattern.place(key), "an arc of radius " + std::to_string(edge.radius) + " m",
                          "a radius above zero");
     const bool bezier = edge.curve == EdgeCurve::quadratic || edge.curve == EdgeCurve::cubic;
     if (bezier && !(edge.control[0].allFinite() && edge.control[1].allFinite()))
-        throw InputError({file, 0, 0, key}, "a control point that is not finite", "two numbers");
+        throw InputError(pattern.place(key), "a control point that is not finite", "two numbers");
     const EdgePath path(panel, edge);
     if (path.radius_enlarged())
-        findings.push_back({"arc",
-                            {file, 0, 0, key},
+        findings.push_back({"arc", pattern.place(key),
                             "arc radius " + std::to_string(edge.radius) +
                                 " m is less than half the distance of its ends; using " +
                                 std::to_string(path.length() / std::numbers::pi) + " m"});
@@ -185,22 +185,22 @@ void check_edge(const PatternPanel& panel, int index, const std::string& file, s
 
 }  // namespace
 
-void check_outline(const PatternPanel& panel, const std::string& file, std::vector<Finding>& findings)
+void check_outline(const Pattern& pattern, const PatternPanel& panel, std::vector<Finding>& findings)
 {
-    check_loop(panel, file);
+    check_loop(pattern, panel);
     std::vector<int> segments, edge_of_side;
     for (int edge = 0; edge < int(panel.edges.size()); ++edge) {
-        check_edge(panel, edge, file, findings);
+        check_edge(pattern, panel, edge, findings);
         segments.push_back(panel.edges[edge].curve == EdgeCurve::straight ? 1 : check_segments);
         edge_of_side.insert(edge_of_side.end(), segments.back(), edge);
     }
     const std::vector<Vec2> polygon = sample_outline(panel, segments);
     if (lies_on_a_line(polygon))
-        throw InputError({file, 0, 0, "pattern.panels." + panel.name}, "an outline without area",
+        throw InputError(pattern.place("pattern.panels." + panel.name), "an outline without area",
                          "a panel with an area");
     if (const auto crossing = crossing_sides(polygon)) {
         const int first = edge_of_side[(*crossing)[0]], second = edge_of_side[(*crossing)[1]];
-        throw InputError({file, 0, 0, edge_key(panel, first)},
+        throw InputError(pattern.place(edge_key(panel, first)),
                          first == second ? "an edge that crosses or touches itself"
                                          : "an edge that crosses or touches edges[" + std::to_string(second) + "]",
                          "an outline that does not cross itself");

@@ -39,10 +39,9 @@ private:
 std::string edge_key(const PatternPanel& panel, int edge);
 
 /// Checks that a panel's edges form one closed loop that does not cross itself and has an area.
-/// @param file      name of the pattern file for messages
 /// @param findings  gets one for every arc whose radius had to be enlarged
 /// @throws InputError naming the panel or edge
-void check_outline(const PatternPanel& panel, const std::string& file, std::vector<Finding>& findings);
+void check_outline(const Pattern& pattern, const PatternPanel& panel, std::vector<Finding>& findings);
 
 /// Returns the signed area of a closed polygon [m^2], positive if counter-clockwise.
 double signed_area(const std::vector<Vec2>& polygon);

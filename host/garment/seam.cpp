@@ -47,8 +47,7 @@ void warn_if_crossed(const Pattern& pattern, int index, const OutlineSamples& a,
     const double given = correlation(cloth, a.vertices, b.vertices, stitch.same_direction);
     if (!(given < crossed_correlation) || correlation(cloth, a.vertices, b.vertices, !stitch.same_direction) <= 0)
         return;
-    cloth.findings.push_back({"seam",
-                              {"", 0, 0, stitch_key(index)},
+    cloth.findings.push_back({"seam", pattern.place(stitch_key(index)),
                               side_name(pattern, stitch.a) + " and " + side_name(pattern, stitch.b) +
                                   " cross when sewn, for as placed they run in opposite directions",
                               std::string("to turn the seam, ") + (stitch.same_direction ? "remove" : "add") +
@@ -57,24 +56,24 @@ void warn_if_crossed(const Pattern& pattern, int index, const OutlineSamples& a,
 
 }  // namespace
 
-void check_stitches(const Pattern& pattern, const std::string& file)
+void check_stitches(const Pattern& pattern)
 {
     std::vector<std::vector<int>> stitch_of;
     for (const PatternPanel& panel : pattern.panels) stitch_of.emplace_back(panel.edges.size(), -1);
     for (int index = 0; index < int(pattern.stitches.size()); ++index)
         for (const StitchSide& side : {pattern.stitches[index].a, pattern.stitches[index].b}) {
-            const InputPlace place{file, 0, 0, stitch_key(index)};
             if (side.panel < 0 || side.panel >= int(pattern.panels.size()))
-                throw InputError(place, "panel " + std::to_string(side.panel),
+                throw InputError(pattern.place(stitch_key(index)), "panel " + std::to_string(side.panel),
                                  "an index into " + std::to_string(pattern.panels.size()) + " panels");
             const int edge_count = int(pattern.panels[side.panel].edges.size());
             if (side.edge < 0 || side.edge >= edge_count)
-                throw InputError(place, side_name(pattern, side),
+                throw InputError(pattern.place(stitch_key(index)), side_name(pattern, side),
                                  "one of the panel's " + std::to_string(edge_count) + " edges");
             int& earlier = stitch_of[side.panel][side.edge];
             if (earlier >= 0)
                 throw InputError(
-                    place, side_name(pattern, side) + ", which is also in stitches[" + std::to_string(earlier) + "]",
+                    pattern.place(stitch_key(index)),
+                    side_name(pattern, side) + ", which is also in stitches[" + std::to_string(earlier) + "]",
                     "an edge that is in no other stitch");
             earlier = index;
         }

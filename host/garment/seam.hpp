@@ -8,9 +8,8 @@
 namespace selvage {
 
 /// Checks that stitches name existing edges and that no edge is stitched twice.
-/// @param file  name of the pattern file for messages
 /// @throws InputError naming the edge and both stitches
-void check_stitches(const Pattern& pattern, const std::string& file);
+void check_stitches(const Pattern& pattern);
 
 /// Returns the number of equal segments of each edge of each panel: its length over `edge_length`, rounded. Both edges
 /// of a stitch get the number of the longer one.

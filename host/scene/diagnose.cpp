@@ -44,8 +44,12 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
     nlohmann::ordered_json json{{"scene", scene.name}, {"clean", diagnosis.clean}};
     json["findings"] = nlohmann::json::array();
     for (const Finding& finding : findings) {
-        diagnosis.text += finding.kind + ": " + describe(finding) + "\n";
-        json["findings"].push_back({{"kind", finding.kind}, {"text", describe(finding)}, {"triangles", finding.faces}});
+        const bool is_note = finding.severity == Severity::note;
+        diagnosis.text += (is_note ? "note: " : "") + finding.kind + ": " + describe(finding) + "\n";
+        json["findings"].push_back({{"kind", finding.kind},
+                                    {"severity", is_note ? "note" : "warning"},
+                                    {"text", describe(finding)},
+                                    {"triangles", finding.faces}});
         if (!finding.pairs.empty()) json["findings"].back()["pairs"] = finding.pairs;
     }
     if (findings.empty())

@@ -53,6 +53,7 @@ Pattern read_pattern(const Scene& scene)
         name.starts_with(prefix)
             ? builtin_pattern(name.substr(prefix.size()), scene.garment.size)
             : read_pattern_json(scene.resolve(name), {scene.garment.up_axis, scene.garment.rotation_order});
+    if (pattern.file.empty()) pattern.file = name;
     for (PatternPanel& panel : pattern.panels) panel.translation += scene.garment.translation;
     return pattern;
 }
@@ -76,16 +77,28 @@ Cloth sheet_at(const Scene& scene, int index, int resolution)
     return cloth;
 }
 
-void check_sheet_size(const Scene& scene, int index)
+// Returns how many vertices a scene may have.
+double most_vertices(const Scene& scene) { return memory_limit(scene) / bytes_per_vertex; }
+
+// Returns about how many vertices the plain sheets of a scene have together; those of files are limited by the files.
+// Throws InputError for the sheet with which they are too many.
+double count_sheet_vertices(const Scene& scene)
 {
-    const SheetScene& sheet = scene.sheets[index];
-    const double rows =
-        sheet.shape == SheetShape::rectangle ? sheet.resolution * sheet.height / sheet.width : sheet.resolution;
-    const double vertices = sheet.resolution * std::max(rows, 2.0), most = memory_limit(scene) / bytes_per_vertex;
-    if (sheet.shape == SheetShape::mesh || vertices <= most) return;
-    throw InputError(scene.place("sheet[" + std::to_string(index) + "].resolution"),
-                     fmt::format("{}, which means about {:.3g} vertices", sheet.resolution, vertices),
-                     fmt::format("at most {:.3g} vertices (solver.memory_limit)", most));
+    double all = 0;
+    for (int index = 0; index < int(scene.sheets.size()); ++index) {
+        const SheetScene& sheet = scene.sheets[index];
+        if (sheet.shape == SheetShape::mesh) continue;
+        const double rows =
+            sheet.shape == SheetShape::rectangle ? sheet.resolution * sheet.height / sheet.width : sheet.resolution;
+        const double vertices = sheet.resolution * std::max(rows, 2.0), most = most_vertices(scene);
+        all += vertices;
+        if (all <= most) continue;
+        throw InputError(scene.place("sheet[" + std::to_string(index) + "].resolution"),
+                         fmt::format("{}, which means about {:.3g} vertices{}", sheet.resolution, vertices,
+                                     index > 0 ? fmt::format(", {:.3g} with the sheets before it", all) : ""),
+                         fmt::format("at most {:.3g} vertices (solver.memory_limit)", most));
+    }
+    return all;
 }
 
 // A sum of plane waves, 1 to 4 across the extent, in directions that share no symmetry; in [-1, 1].
@@ -133,9 +146,9 @@ Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
     const double factor = std::pow(2.0, level);
     if (scene.has_garment()) {
         const int copies = scene.garment.copies;
-        const Cloth garment =
-            assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric, scene.panel_fabrics,
-                             scene.garment.pattern, memory_limit(scene) / bytes_per_vertex / copies);
+        const double most = std::max(0.0, most_vertices(scene) - count_sheet_vertices(scene)) / copies;
+        const Cloth garment = assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric,
+                                               scene.panel_fabrics, most);
         for (int copy = 0; copy < copies; ++copy) append_cloth(cloth, garment_copy(garment, scene.garment, copy));
     }
     for (int i = 0; i < int(scene.sheets.size()); ++i) {
@@ -170,7 +183,7 @@ SceneModel build_scene_model(const Scene& scene)
     SceneModel result;
     Pattern pattern;
     if (scene.has_garment()) pattern = read_pattern(scene);
-    for (int i = 0; i < int(scene.sheets.size()); ++i) check_sheet_size(scene, i);
+    count_sheet_vertices(scene);
     result.cloth_model.cloth = cloth_at_level(scene, pattern, 0);
     // A fabric that no panel is made of must not decide which terms run.
     for (const ClothPanel& panel : result.cloth_model.cloth.panels)

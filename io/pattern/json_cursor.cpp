@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "io/pattern/json_text.hpp"
+
 namespace selvage {
 namespace {
 
@@ -16,14 +18,6 @@ std::string short_text(const OrderedJson& value)
     return text;
 }
 
-InputPlace place_of_byte(std::string_view text, std::size_t byte, const std::string& file)
-{
-    const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
-    const std::size_t newline = before.rfind('\n');
-    const std::size_t line_begin = newline == std::string_view::npos ? 0 : newline + 1;
-    return {file, 1 + int(std::count(before.begin(), before.end(), '\n')), 1 + int(before.size() - line_begin), {}};
-}
-
 // Removes the library's name, error number and position from the start of its message; InputPlace has the position.
 std::string plain_message(const std::string& message)
 {
@@ -33,26 +27,47 @@ std::string plain_message(const std::string& message)
     return name == std::string::npos ? message : message.substr(name + 2);
 }
 
+// Whether two names differ in no more than two neighbouring letters.
+bool looks_like(std::string_view name, std::string_view wanted)
+{
+    const auto same = std::ranges::mismatch(name, wanted);
+    const auto front = std::size_t(same.in1 - name.begin());
+    const std::string_view a = name.substr(front), b = wanted.substr(front);
+    const auto behind = std::mismatch(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+    return std::max(a.rend() - behind.first, b.rend() - behind.second) <= 2;
+}
+
 }  // namespace
 
-OrderedJson parse_json(std::string_view text, const std::string& file)
+JsonDocument parse_json(std::string_view text, const std::string& file)
 {
+    JsonDocument document{file, plain_json(text, file), {}};
     std::vector<std::set<std::string>> keys;
+    int key_count = 0;
     const auto refuse_twice = [&](int, OrderedJson::parse_event_t event, OrderedJson& value) {
         if (event == OrderedJson::parse_event_t::object_start) keys.emplace_back();
         if (event == OrderedJson::parse_event_t::object_end) keys.pop_back();
-        if (event == OrderedJson::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-            throw InputError({file, 0, 0, value.get<std::string>()}, "the key twice in one object", "each key once");
+        if (event != OrderedJson::parse_event_t::key) return true;
+        ++key_count;
+        if (!keys.back().insert(value.get<std::string>()).second) {
+            InputPlace place = place_of_byte(document.text, offset_of_key(document.text, key_count), file);
+            place.key = value.get<std::string>();
+            throw InputError(place, "the key twice in one object", "each key once");
+        }
         return true;
     };
     try {
-        return OrderedJson::parse(text.begin(), text.end(), refuse_twice);
+        document.root = OrderedJson::parse(document.text.begin(), document.text.end(), refuse_twice);
     } catch (const OrderedJson::parse_error& error) {
-        throw InputError(place_of_byte(text, error.byte, file), plain_message(error.what()), "valid JSON");
+        throw InputError(place_of_byte(document.text, std::max<std::size_t>(error.byte, 1) - 1, file),
+                         plain_message(error.what()), "valid JSON");
     } catch (const OrderedJson::exception& error) {
         throw InputError({file, 0, 0, {}}, plain_message(error.what()), "valid JSON");
     }
+    return document;
 }
+
+InputPlace JsonCursor::place() const { return place_of_value(document_->text, document_->file, path_); }
 
 void JsonCursor::refuse(std::string_view expected, std::string_view nearest) const
 {
@@ -64,7 +79,13 @@ void JsonCursor::refuse_as(std::string_view found, std::string_view expected, st
     throw InputError(place(), found, expected, nearest);
 }
 
-bool JsonCursor::has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+bool JsonCursor::has(const std::string& key) const
+{
+    if (!value_->is_object() || value_->contains(key)) return value_->is_object();
+    for (const auto& [name, value] : value_->items())
+        if (looks_like(name, key)) at(key);
+    return false;
+}
 
 JsonCursor JsonCursor::at(const std::string& key) const
 {
@@ -77,12 +98,12 @@ JsonCursor JsonCursor::at(const std::string& key) const
         const std::string found = near.empty() ? "no key `" + key + "`" : "`" + near + "` and no key `" + key + "`";
         refuse_as(found, "the key `" + key + "`");
     }
-    return {*item, *file_, path_.empty() ? key : path_ + "." + key};
+    return {*document_, *item, path_.empty() ? key : path_ + "." + key};
 }
 
 JsonCursor JsonCursor::at(int index) const
 {
-    return {value_->at(std::size_t(index)), *file_, path_ + "[" + std::to_string(index) + "]"};
+    return {*document_, value_->at(std::size_t(index)), path_ + "[" + std::to_string(index) + "]"};
 }
 
 const JsonCursor& JsonCursor::object() const

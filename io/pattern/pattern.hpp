@@ -57,6 +57,11 @@ struct Pattern {
     std::vector<PatternPanel> panels;
     std::vector<PatternStitch> stitches;
     std::vector<Finding> findings;  ///< Values that the reader found unusual but could use.
+    std::string file;               ///< That it was read from, or `builtin:NAME`.
+    std::string text;               ///< Of the file, in which the places of findings are searched; may be empty.
+
+    /// Returns the place of a key path such as `pattern.panels.front.edges[3]`, with its line where that is known.
+    InputPlace place(const std::string& key) const;
 };
 
 }  // namespace selvage

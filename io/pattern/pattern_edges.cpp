@@ -125,7 +125,8 @@ void read_edges(const JsonCursor& cursor, const PatternUnits& units, PatternPane
         const JsonCursor item = cursor.at(k);
         PatternEdge& edge = panel.edges.emplace_back();
         read_endpoints(item.at("endpoints"), panel, edge);
-        if (item.has("curvature")) read_curvature(item.at("curvature"), units, panel, edge, findings);
+        if (item.has("curvature") && !item.at("curvature").value().is_null())
+            read_curvature(item.at("curvature"), units, panel, edge, findings);
     }
     check_loop(cursor, panel);
 }

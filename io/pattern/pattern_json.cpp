@@ -12,6 +12,7 @@
 #include "io/number_text.hpp"
 #include "io/pattern/json_cursor.hpp"
 #include "io/pattern/pattern_edges.hpp"
+#include "io/utf8.hpp"
 
 namespace selvage {
 namespace {
@@ -68,6 +69,7 @@ Pattern PatternReader::read()
     if (panels.size() == 0) panels.refuse_as("no panels", "at least one panel");
     for (const std::string& name : panel_order(panels)) pattern_.panels.push_back(read_panel(name, panels.at(name)));
 
+    if (!pattern.has("stitches")) return std::move(pattern_);
     const JsonCursor stitches = pattern.at("stitches").list("a list of stitches");
     for (int stitch = 0; stitch < stitches.size(); ++stitch) read_stitch(stitches.at(stitch));
     return std::move(pattern_);
@@ -99,7 +101,7 @@ std::vector<std::string> PatternReader::panel_order(const JsonCursor& panels) co
         const JsonCursor list = root_.at("pattern").at("panel_order").list("a list of panel names");
         for (int k = 0; k < list.size(); ++k) {
             const std::string name = list.at(k).text("a panel's name");
-            if (!panels.has(name)) list.at(k).refuse("the name of a panel", nearest_name(name, all));
+            if (!panels.value().contains(name)) list.at(k).refuse("the name of a panel", nearest_name(name, all));
             if (std::find(order.begin(), order.end(), name) != order.end()) list.at(k).refuse("each panel once");
             order.push_back(name);
         }
@@ -139,12 +141,19 @@ void PatternReader::read_vertices(const JsonCursor& cursor, PatternPanel& panel)
 
 void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel)
 {
-    const JsonCursor translation = cursor.at("translation"), rotation = cursor.at("rotation");
-    const Vec3 moved = units_.scale * translation.vector3("three numbers [x, y, z]");
-    if (!(moved.norm() <= PanelLimits::largest_distance))
-        translation.refuse("a place within " + number_text(PanelLimits::largest_distance) + " m of the origin");
-    const Vec3 angles = rotation.vector3("three angles [x, y, z] in degrees");
-    if (!(angles.cwiseAbs().maxCoeff() <= 1e4)) rotation.refuse("angles within 10000 degrees");
+    // Files of the format leave out what is zero.
+    Vec3 moved = Vec3::Zero(), angles = Vec3::Zero();
+    if (cursor.has("translation")) {
+        const JsonCursor translation = cursor.at("translation");
+        moved = units_.scale * translation.vector3("three numbers [x, y, z]");
+        if (!(moved.norm() <= PanelLimits::largest_distance))
+            translation.refuse("a place within " + number_text(PanelLimits::largest_distance) + " m of the origin");
+    }
+    if (cursor.has("rotation")) {
+        const JsonCursor rotation = cursor.at("rotation");
+        angles = rotation.vector3("three angles [x, y, z] in degrees");
+        if (!(angles.cwiseAbs().maxCoeff() <= 1e4)) rotation.refuse("angles within 10000 degrees");
+    }
 
     constexpr double degree = 3.14159265358979323846 / 180;
     Mat3 turn = Mat3::Identity();
@@ -155,7 +164,7 @@ void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel
         axes_used += std::abs(std::remainder(angles[axis], 360)) > 1e-9;
     }
     if (axes_used > 1)
-        pattern_.findings.push_back({"rotation", rotation.place(),
+        pattern_.findings.push_back({"rotation", cursor.at("rotation").place(),
                                      "turns about " + std::to_string(axes_used) +
                                          " axes, for which writers of this format use different orders: taken as `" +
                                          text_of(conventions_.rotation_order) + "`",
@@ -200,8 +209,8 @@ void PatternReader::read_stitch(const JsonCursor& cursor)
     PatternStitch stitch;
     stitch.a = read_side(cursor.at(0));
     stitch.b = read_side(cursor.at(1));
-    claim_edge(stitch.a, cursor.at(0), cursor.place().key);
-    claim_edge(stitch.b, cursor.at(1), cursor.place().key);
+    claim_edge(stitch.a, cursor.at(0), cursor.path());
+    claim_edge(stitch.b, cursor.at(1), cursor.path());
     if (cursor.size() == 3) {
         const JsonCursor third = cursor.at(2);
         if (third.value().is_string() && third.value() != "right_wrong") third.refuse("\"right_wrong\"", "right_wrong");
@@ -215,9 +224,11 @@ void PatternReader::read_stitch(const JsonCursor& cursor)
 Pattern read_pattern_json(const std::string& path, const PatternConventions& conventions)
 {
     const std::string text = read_file_text(path, "a pattern file (GarmentCode JSON)");
-    const OrderedJson json = parse_json(text, path);
-    Pattern pattern = PatternReader(JsonCursor(json, path, ""), conventions).read();
-    pattern.name = std::filesystem::path(path).stem().string();
+    JsonDocument document = parse_json(text, path);
+    Pattern pattern = PatternReader(JsonCursor(document), conventions).read();
+    pattern.file = path;
+    pattern.text = std::move(document.text);
+    pattern.name = valid_utf8(std::filesystem::path(path).stem().string());
     return pattern;
 }
 

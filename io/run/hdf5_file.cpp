@@ -14,6 +14,9 @@ namespace {
 // HDF5 prints its error stack by default. Here the deepest error becomes part of the exception instead.
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
+// An attribute takes at most 64 KiB, of which each text takes 16 bytes for the place where it is stored.
+constexpr std::size_t most_attribute_texts = 4000;
+
 Hdf5Id text_type()
 {
     Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose, "text type");
@@ -327,7 +330,14 @@ void Hdf5File::set_texts(const std::string& object, const char* name, const std:
     const Hdf5Id space = simple_space({texts.size()});
     std::vector<const char*> values;
     for (const std::string& text : texts) values.push_back(text.c_str());
-    require_hdf5(H5Awrite(make_attribute(object, name, type, space), type, values.data()), name);
+    if (texts.size() <= most_attribute_texts) {
+        require_hdf5(H5Awrite(make_attribute(object, name, type, space), type, values.data()), name);
+        return;
+    }
+    const Hdf5Id dataset(
+        H5Dcreate2(file_, (object + "/" + name).c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+        name);
+    require_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
 }
 
 std::int64_t Hdf5File::integer(const std::string& object, const char* name) const
@@ -368,17 +378,20 @@ std::string Hdf5File::text(const std::string& object, const char* name) const
 std::vector<std::string> Hdf5File::texts(const std::string& object, const char* name) const
 {
     require_links(object);
-    if (H5Aexists_by_name(file_, object.c_str(), name, H5P_DEFAULT) <= 0) return {};
-    const std::string place = object + "@" + name;
-    const Hdf5Id attribute = open_attribute(object, name);
-    const Hdf5Id space = opened(H5Aget_space(attribute), H5Sclose, place);
-    const Hdf5Id file_type = opened(H5Aget_type(attribute), H5Tclose, place);
+    const bool is_attribute = H5Aexists_by_name(file_, object.c_str(), name, H5P_DEFAULT) > 0;
+    const std::string place = object + (is_attribute ? "@" : "/") + name;
+    if (!is_attribute && !exists(place)) return {};
+    const Hdf5Id holder = is_attribute ? open_attribute(object, name) : open_dataset(place);
+    const Hdf5Id space = opened(is_attribute ? H5Aget_space(holder) : H5Dget_space(holder), H5Sclose, place);
+    const Hdf5Id file_type = opened(is_attribute ? H5Aget_type(holder) : H5Dget_type(holder), H5Tclose, place);
     if (H5Tis_variable_str(file_type) <= 0) refuse(place, "another type of data", "text of variable length");
     const Hdf5Id type = text_type();
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     if (count < 0 || std::uintmax_t(count) > size()) refuse(place, "too many texts", "no more than the file can hold");
     std::vector<char*> values(static_cast<std::size_t>(count));
-    require_read(H5Aread(attribute, type, values.data()), place);
+    require_read(is_attribute ? H5Aread(holder, type, values.data())
+                              : H5Dread(holder, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                 place);
     std::vector<std::string> result;
     for (const char* value : values) result.emplace_back(value ? value : "");
     require_read(H5Dvlen_reclaim(type, space, H5P_DEFAULT, values.data()), place);

@@ -73,6 +73,7 @@ public:
     void set_real(const std::string& object, const char* name, double value);
     void set_text(const std::string& object, const char* name, const std::string& text);
     void set_fixed_text(const std::string& object, const char* name, const std::string& text);  ///< ASCII.
+    /// More than an attribute can hold become a dataset of that name within the object.
     void set_texts(const std::string& object, const char* name, const std::vector<std::string>& texts);
     std::int64_t integer(const std::string& object, const char* name) const;  ///< A single one.
     double real(const std::string& object, const char* name) const;

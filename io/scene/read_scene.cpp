@@ -9,6 +9,7 @@
 #include "io/scene/presets.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "io/utf8.hpp"
 
 namespace selvage {
 namespace {
@@ -126,7 +127,8 @@ Scene scene_of(TomlDocument document, const std::string& source)
 {
     Scene scene;
     scene.file = source;
-    scene.name = is_builtin(source) ? source.substr(builtin_prefix.size()) : fs::path(source).stem().string();
+    scene.name =
+        valid_utf8(is_builtin(source) ? source.substr(builtin_prefix.size()) : fs::path(source).stem().string());
     scene.folder = is_builtin(source) ? std::string() : fs::path(source).parent_path().string();
     std::ostringstream text;
     text << document.root << '\n';

@@ -119,6 +119,15 @@ void refuse_deep_keys(std::string_view text, const std::string& file)
     }
 }
 
+// TOML knows LF and CR LF; old editors end lines with CR alone.
+std::string with_line_feeds(std::string_view text)
+{
+    std::string result(text);
+    for (std::size_t at = 0; at < result.size(); ++at)
+        if (result[at] == '\r' && (at + 1 == result.size() || result[at + 1] != '\n')) result[at] = '\n';
+    return result;
+}
+
 }  // namespace
 
 InputPlace TomlDocument::place(const toml::source_region& region, const std::string& key) const
@@ -130,13 +139,14 @@ InputPlace TomlDocument::place(const toml::source_region& region, const std::str
     return {found ? "--set " + *found : file, 0, 0, key};
 }
 
-TomlDocument parse_toml(std::string_view text, const std::string& file)
+TomlDocument parse_toml(std::string_view file_text, const std::string& file)
 {
+    const std::string text = with_line_feeds(file_text);
     TomlDocument document;
     document.file = file;
     refuse_deep_keys(text, file);
     try {
-        document.root = toml::parse(text, std::string_view(file));
+        document.root = toml::parse(std::string_view(text), std::string_view(file));
     } catch (const toml::parse_error& error) {
         const toml::source_position begin = error.source().begin;
         std::string found(error.description());

@@ -63,13 +63,14 @@ Pattern pattern_of(const std::vector<PatternPanel>& panels)
 {
     Pattern pattern;
     pattern.name = "test";
+    pattern.file = "test.json";
     pattern.panels = panels;
     return pattern;
 }
 
 Cloth assemble(const Pattern& pattern, double edge_length)
 {
-    return assemble_garment(pattern, edge_length, "cotton", {}, "test.json");
+    return assemble_garment(pattern, edge_length, "cotton", {});
 }
 
 double smallest_angle(const Vec2& a, const Vec2& b, const Vec2& c)
@@ -365,7 +366,7 @@ TEST_CASE("faulty patterns are refused with the place of the fault")
     CHECK(message.find("back.edges[1], which is also in stitches[0]") != std::string::npos);
 
     CHECK(message_of(pattern_of({good}), 1e-5).find("garment.resolution") == 0);
-    CHECK_THROWS_WITH(assemble_garment(pattern_of({good}), 0.05, "cotton", {{"frnt", "denim"}}, "test.json"),
+    CHECK_THROWS_WITH(assemble_garment(pattern_of({good}), 0.05, "cotton", {{"frnt", "denim"}}),
                       contains_text("garment.fabrics.frnt") && contains_text("did you mean `front`"));
     CHECK(message_of(pattern_of({good})).empty());
 }

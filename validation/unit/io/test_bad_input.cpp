@@ -236,7 +236,14 @@ TEST_CASE("malformed pattern files are refused with line, column or key path")
     check_patterns({
         {"", {":1:1:", "valid JSON"}},
         {"{\"pattern\": {\n  \"panels\" 3}}", {":2:12:", "valid JSON"}},
-        {"{\"pattern\": 1, \"pattern\": 2}", {"pattern", "twice"}},
+        {"{\"pattern\": 1,\r\"a\": {\"pattern\": \"pattern\"},\r\n\"pattern\": 2}", {":3:1:", "pattern", "twice"}},
+        {"{\"pattern\": 1,, \"panels\": 2}", {":1:15:", "valid JSON"}},
+        {"{\"pattern\": [,]}", {":1:14:", "valid JSON"}},
+        {"{\"pattern\": 1} /* open", {"`properties`"}},
+        {std::string("\xff\xfe{\0}\0", 6), {"UTF-16", "UTF-8"}},
+        {pattern_with("[0, 100, 20]", "\n" + many("[", 60000) + many("]", 60000)),
+         {":3:61:", "pattern.panels.front.translation", "64 deep"}},
+        {pattern_with("\"rotation\"", "\"rotaton\""), {":2:10:", "pattern.panels.front", "`rotaton`", "`rotation`"}},
         {"[1]", {"[1]", "an object"}},
         {pattern_with("\"properties\"", "\"propertis\""), {"propertis", "`properties`"}},
         {pattern_with("units_in_meter", "unit_in_meters"), {"properties", "unit_in_meters", "`units_in_meter`"}},
@@ -244,7 +251,8 @@ TEST_CASE("malformed pattern files are refused with line, column or key path")
         {pattern_with("\"relative\"", "\"relativ\""), {"properties.curvature_coords", "relativ", "`relative`"}},
         {pattern_with("\"stitches\"", "\"stiches\""), {"pattern", "stiches", "`stitches`"}},
         {pattern_with("\"vertices\"", "\"verts\""), {"pattern.panels.front", "`vertices`"}},
-        {pattern_with("[0, 100, 20]", "[0, 100]"), {"pattern.panels.front.translation", "[0,100]", "three numbers"}},
+        {pattern_with("[0, 100, 20]", "[0, 100]"),
+         {":2:26:", "pattern.panels.front.translation", "[0,100]", "three numbers"}},
         {pattern_with("[0, 100, 20]", "[0, 1e300, 20]"), {"pattern.panels.front.translation", "100 m"}},
         {pattern_with("[0, 0, 0]", "[0, \"x\", 0]"), {"pattern.panels.front.rotation[1]", "\"x\"", "a number"}},
     });
@@ -281,7 +289,7 @@ TEST_CASE("stitches that fit no panel or edge are refused")
 {
     check_patterns({
         {pattern_with("{\"panel\": \"back\"", "{\"panel\": \"bakc\""),
-         {"pattern.stitches[0][1].panel", "bakc", "`back`"}},
+         {":6:56:", "pattern.stitches[0][1].panel", "bakc", "`back`"}},
         {pattern_with("\"edge\": 1}", "\"edge\": 7}"), {"pattern.stitches[0][1].edge", "7", "0 to 2"}},
         {pattern_with("{\"panel\": \"back\", \"edge\": 1}", "{\"panel\": \"front\", \"edge\": 0}"),
          {"pattern.stitches[0][1]", "edge 0 of `front`", "pattern.stitches[0]"}},

@@ -158,3 +158,31 @@ TEST_CASE("rotations are applied as Rz Ry Rx, with a warning where the order mat
     variant.rotation = "[0, 45, 360]";
     CHECK(read_variant(variant).findings.empty());
 }
+
+TEST_CASE("a pattern may leave out what is zero or empty, and hold comments, a last comma and any line ends")
+{
+    constexpr const char* text = R"(/* a square */ {
+"pattern": {"panels": { // the only "panel": [
+  "front": {"vertices": [[0, 0], [40, 0], [40, 40], [0, 40],],
+    "edges": [{"endpoints": [0, 1], "curvature": null}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]},
+              {"endpoints": [3, 0]}]}},
+  "panel_order": ["front"]},
+"properties": {"units_in_meter": 100, "//": "/* no comment */"}, // end
+})";
+    const ScratchFolder folder;
+    for (const std::string line_end : {"\n", "\r\n", "\r"}) {
+        std::string lines = "\xef\xbb\xbf";  // a byte order mark
+        for (const char c : std::string(text)) lines += c == '\n' ? line_end : std::string(1, c);
+        const Pattern pattern = read_pattern_json(folder.write("square.json", lines), {});
+        REQUIRE(pattern.panels.size() == 1);
+        CHECK(pattern.panels[0].translation == Vec3::Zero());
+        CHECK((pattern.panels[0].rotation * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm() < 1e-12);
+        CHECK(pattern.panels[0].edges[0].curve == EdgeCurve::straight);
+        CHECK(pattern.stitches.empty());
+        CHECK(pattern.findings.empty());
+        CHECK(pattern.place("pattern.panels.front.edges[3]").line == 5);
+        CHECK(pattern.place("pattern.panels.front.edges[3]").column == 15);
+        CHECK(pattern.place("pattern.panels.front.edges[7]").line == 4);
+        CHECK(pattern.place("pattern.panel").line == 2);
+    }
+}
