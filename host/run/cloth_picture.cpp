@@ -1,6 +1,7 @@
 #include "host/run/cloth_picture.hpp"
 
 #include "host/parallel/trace.hpp"
+#include "host/run/measure.hpp"
 
 namespace selvage {
 namespace {
@@ -35,8 +36,7 @@ void draw_cloth(const std::string& path, const Cloth& cloth, const std::vector<T
     PictureCloth picture;
     picture.positions = positions;
     picture.faces = shared_faces(cloth, topology);
-    for (int p = 0; p < int(cloth.panels.size()); ++p)
-        picture.face_panel.insert(picture.face_panel.end(), std::size_t(cloth.panels[p].face_count), p);
+    picture.face_panel = face_panels(cloth);
     for (const Seam& seam : cloth.seams)
         for (int k = seam.first_pair; k + 1 < seam.first_pair + seam.pair_count; ++k)
             picture.seam_edges.push_back(

@@ -4,19 +4,16 @@
 #include <cmath>
 #include <map>
 
-#include "host/solver/state/rest_state.hpp"
-#include "host/solver/state/topology.hpp"
-
 namespace selvage {
 namespace {
 
 // Square roots of the eigenvalues of the right Cauchy-Green tensor C = F^T F.
-std::array<double, 2> principal_stretches(const Cloth& cloth, const std::vector<Vec3>& x, int face)
+std::array<double, 2> principal_stretches(const std::array<Vec2, 3>& rest, const Face& f, const std::vector<Vec3>& x)
 {
-    const std::array<double, 4> w = face_rest_weights(cloth, face);
-    const Face& f = cloth.faces[face];
+    const Vec2 p = rest[1] - rest[0], q = rest[2] - rest[0];
+    const double area = p.x() * q.y() - p.y() * q.x();
     const Vec3 a = x[f[1]] - x[f[0]], b = x[f[2]] - x[f[0]];
-    const Vec3 weft = w[0] * a + w[1] * b, warp = w[2] * a + w[3] * b;
+    const Vec3 weft = (q.y() * a - p.y() * b) / area, warp = (p.x() * b - q.x() * a) / area;
     const double uu = weft.squaredNorm(), vv = warp.squaredNorm(), uv = weft.dot(warp);
     const double mean = 0.5 * (uu + vv), radius = std::hypot(0.5 * (uu - vv), uv);
     return {std::sqrt(std::max(mean - radius, 0.0)), std::sqrt(mean + radius)};
@@ -39,14 +36,15 @@ std::vector<std::array<int, 2>> boundary_edges(const Cloth& cloth, const ClothPa
 
 }  // namespace
 
-StretchMeasure measure_stretch(const Cloth& cloth, const std::vector<Vec3>& positions)
+StretchMeasure measure_stretch(const std::vector<std::array<Vec2, 3>>& rest_corners, const std::vector<Face>& faces,
+                               const std::vector<Vec3>& positions)
 {
     StretchMeasure measure;
-    if (cloth.faces.empty()) return measure;
+    if (faces.empty()) return measure;
     std::vector<double> strains;
-    strains.reserve(2 * cloth.faces.size());
-    for (int f = 0; f < int(cloth.faces.size()); ++f)
-        for (double stretch : principal_stretches(cloth, positions, f)) strains.push_back(stretch - 1);
+    strains.reserve(2 * faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (double stretch : principal_stretches(rest_corners[f], faces[f], positions)) strains.push_back(stretch - 1);
     const auto [low, high] = std::minmax_element(strains.begin(), strains.end());
     measure.min = *low;
     measure.max = *high;
@@ -96,6 +94,25 @@ double measure_seam_gap(const Cloth& cloth, const std::vector<Vec3>& positions)
     double gap = 0;
     for (const auto& [a, b] : cloth.seam_pairs) gap = std::max(gap, (positions[a] - positions[b]).norm());
     return gap;
+}
+
+std::vector<std::array<Vec2, 3>> rest_corners(const Cloth& cloth)
+{
+    std::vector<std::array<Vec2, 3>> corners;
+    corners.reserve(cloth.faces.size());
+    const auto single = [&](int vertex) -> Vec2 {
+        return cloth.panel_coordinates[vertex].cast<float>().cast<double>();
+    };
+    for (const Face& f : outward_faces(cloth)) corners.push_back({single(f[0]), single(f[1]), single(f[2])});
+    return corners;
+}
+
+std::vector<int> face_panels(const Cloth& cloth)
+{
+    std::vector<int> panels;
+    for (int p = 0; p < int(cloth.panels.size()); ++p)
+        panels.insert(panels.end(), std::size_t(cloth.panels[p].face_count), p);
+    return panels;
 }
 
 std::vector<std::array<double, 3>> rest_edge_lengths(const Cloth& cloth)

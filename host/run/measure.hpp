@@ -19,8 +19,11 @@ struct PanelMeasure {
     double area_error = 0, boundary_error = 0;
 };
 
-/// @param positions  per cloth vertex [m]
-StretchMeasure measure_stretch(const Cloth& cloth, const std::vector<Vec3>& positions);
+/// @param rest_corners  (weft, warp) of the corners of every face [m]
+/// @param faces         corners as indices of positions
+/// @param positions     [m]
+StretchMeasure measure_stretch(const std::vector<std::array<Vec2, 3>>& rest_corners, const std::vector<Face>& faces,
+                               const std::vector<Vec3>& positions);
 
 std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<Vec3>& positions);
 
@@ -29,6 +32,12 @@ double measure_seam_gap(const Cloth& cloth, const std::vector<Vec3>& positions);
 
 /// The gap of each seam: largest distance among its pairs [m].
 std::vector<double> measure_seams(const Cloth& cloth, const std::vector<Vec3>& positions);
+
+/// The (weft, warp) coordinates of the corners of every outward face in its own panel, in single precision [m].
+std::vector<std::array<Vec2, 3>> rest_corners(const Cloth& cloth);
+
+/// The panel of every face.
+std::vector<int> face_panels(const Cloth& cloth);
 
 /// Rest lengths of the edges 01, 12, 20 of every outward face [m].
 std::vector<std::array<double, 3>> rest_edge_lengths(const Cloth& cloth);

@@ -14,23 +14,22 @@
 namespace selvage {
 namespace {
 
-// Edges whose two faces belong to different panels.
-std::vector<std::array<int, 2>> panel_borders(const std::vector<Face>& faces, const std::vector<int>& face_panel)
+// A corner of a face at rest: its panel and place there. Files of earlier versions have no places.
+struct RestCorner {
+    int panel;
+    Vec2 place;
+    bool operator==(const RestCorner& other) const { return panel == other.panel && place == other.place; }
+};
+
+RestCorner rest_corner(const TrajectoryLayout& layout, const std::vector<int>& face_panel, std::size_t face, int corner)
 {
-    std::map<std::array<int, 2>, int> panel_of_edge;
-    std::vector<std::array<int, 2>> borders;
-    for (std::size_t f = 0; f < faces.size(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = faces[f][k], b = faces[f][(k + 1) % 3];
-            const auto [at, fresh] = panel_of_edge.try_emplace({std::min(a, b), std::max(a, b)}, face_panel[f]);
-            if (!fresh && at->second != face_panel[f]) borders.push_back(at->first);
-        }
-    return borders;
+    return {face_panel[face], layout.rest_corners.empty() ? Vec2(0, 0) : layout.rest_corners[face][corner]};
 }
 
-// A face belongs to the panel whose flat edges it keeps: the panel of most of its corners.
+// In files of earlier versions a face belongs to the panel of most of its corners, which may fail at seams.
 std::vector<int> face_panels(const TrajectoryLayout& layout)
 {
+    if (!layout.triangle_panel.empty()) return layout.triangle_panel;
     std::vector<int> panels;
     for (const Face& f : layout.triangles) {
         const int a = layout.panel[f[0]], b = layout.panel[f[1]], c = layout.panel[f[2]];
@@ -50,7 +49,7 @@ std::vector<TriangleMesh> bodies_at(const TrajectoryReader& reader, const std::s
         if (std::filesystem::exists(file)) meshes.push_back(read_obj(file, LengthUnit::m, Axis::z));
         return meshes;
     }
-    const double bodies_time = run.filename() == "sewing.h5" ? 0 : time;  // they wait until the garment is sewn
+    const double bodies_time = run.stem() == "sewing" ? 0 : time;  // they wait until the garment is sewn
     for (const Body& body : build_bodies(read_scene_text(text, reader.layout().scene_file)))
         meshes.push_back(body_mesh_at(body, bodies_time));
     return meshes;
@@ -66,6 +65,24 @@ void write_bodies(const std::vector<TriangleMesh>& bodies, const std::string& pa
 
 }  // namespace
 
+std::vector<std::array<int, 2>> seam_edges(const TrajectoryLayout& layout)
+{
+    const std::vector<int> face_panel = face_panels(layout);
+    std::map<std::array<int, 2>, std::array<RestCorner, 2>> places;
+    std::vector<std::array<int, 2>> seams;
+    for (std::size_t f = 0; f < layout.triangles.size(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            int low = k, high = (k + 1) % 3;
+            if (layout.triangles[f][low] > layout.triangles[f][high]) std::swap(low, high);
+            const std::array<int, 2> edge{layout.triangles[f][low], layout.triangles[f][high]};
+            const std::array<RestCorner, 2> here{rest_corner(layout, face_panel, f, low),
+                                                 rest_corner(layout, face_panel, f, high)};
+            const auto [at, fresh] = places.try_emplace(edge, here);
+            if (!fresh && at->second != here) seams.push_back(edge);
+        }
+    return seams;
+}
+
 void render_run(const std::string& run_h5, const std::string& png, int frame, int width, const std::string& body_obj)
 {
     const TrajectoryReader reader(run_h5);
@@ -77,7 +94,7 @@ void render_run(const std::string& run_h5, const std::string& png, int frame, in
     picture.positions = reader.read_frame(at);
     picture.faces = reader.layout().triangles;
     picture.face_panel = face_panels(reader.layout());
-    picture.seam_edges = panel_borders(picture.faces, picture.face_panel);
+    picture.seam_edges = seam_edges(reader.layout());
     const std::vector<TriangleMesh> bodies = bodies_at(reader, run_h5, reader.scalars(at).time);
     if (!body_obj.empty()) write_bodies(bodies, body_obj);
     PictureOptions options;

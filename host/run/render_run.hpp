@@ -1,7 +1,15 @@
 #pragma once
+#include <array>
 #include <string>
+#include <vector>
+
+#include "io/run/trajectory.hpp"
 
 namespace selvage {
+
+/// The edges at which two triangles are sewn to each other: those whose ends lie in two places of the flat cloth.
+/// Files of earlier versions do not tell the places; then it is the edges between two panels.
+std::vector<std::array<int, 2>> seam_edges(const TrajectoryLayout& layout);
 
 /// Draws a frame of a run.h5 or sewing.h5 with its bodies: those of the body.obj beside it, or, if they move, those
 /// that the run's scene has at that time.

@@ -43,6 +43,8 @@ TrajectoryLayout trajectory_layout(const RunSettings& settings, const Cloth& clo
         layout.panel_names.push_back(cloth.panels[p].name);
     }
     layout.rest_edge_lengths = rest_edge_lengths(cloth);
+    layout.rest_corners = rest_corners(cloth);
+    layout.triangle_panel = face_panels(cloth);
     layout.seam_pairs = cloth.seam_pairs;
     layout.scene_text = settings.text;
     const bool builtin = settings.file.starts_with("builtin:");
@@ -59,8 +61,8 @@ RunRecorder::RunRecorder(const RunSettings& settings, const SceneModel& model, c
 {
     make_folder(folder_);
     if (!resume)
-        for (const char* stale : {"summary.json", "run.h5", "run.xdmf", "sewing.h5", "sewing.xdmf", "final.obj",
-                                  "preview.png", "body.obj", "checkpoint.h5", "trace.json"})
+        for (const char* stale : {"summary.json", "run.h5", "run.vtkhdf", "run.xdmf", "sewing.h5", "sewing.vtkhdf",
+                                  "sewing.xdmf", "final.obj", "preview.png", "body.obj", "checkpoint.h5", "trace.json"})
             remove_file(folder_ + "/" + stale);
     remove_file(folder_ + "/summary.json");
     ProgressOptions progress;
@@ -86,6 +88,8 @@ void RunRecorder::open_phase(RunStage stage, const Topology& topology, int keep_
     else
         trajectory_.emplace(
             TrajectoryWriter::create(path, trajectory_layout(settings_, model_.cloth_model.cloth, topology)));
+    if (!trajectory_->has_second_name())
+        say(path + " has no second name with the ending .vtkhdf: the file system has no hard links");
     if (keep_frames > 0) {
         last_frame_ = trajectory_->last_time();
         next_frame_ = frame_time_after(last_frame_);
@@ -178,16 +182,19 @@ void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topol
     draw_cloth(folder_ + "/preview.png", model_.cloth_model.cloth, bodies, positions, topology, options);
 }
 
-// Of the last frame as it is written, where the files allow it to be counted again.
-void RunRecorder::count_intersections(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
-                                      const std::vector<TriangleMesh>& bodies) const
+// Of the last frame as it is written, where the files allow it to be measured again.
+void RunRecorder::measure_written(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
+                                  const std::vector<TriangleMesh>& bodies) const
 {
-    const TraceScope scope("count_intersections");
+    const TraceScope scope("measure_written");
     const double spacing = grid_spacing(settings_.output.precision);
     std::vector<Vec3> written;
     for (const Vec3& x : positions) written.push_back(written_position(x, spacing).cast<double>());
     if (!std::all_of(written.begin(), written.end(), [](const Vec3& x) { return x.allFinite(); })) return;
-    const std::vector<Face> faces = shared_faces(model_.cloth_model.cloth, topology);
+    const Cloth& cloth = model_.cloth_model.cloth;
+    const std::vector<Face> faces = shared_faces(cloth, topology);
+    const StretchMeasure stretch = measure_stretch(rest_corners(cloth), faces, written);
+    summary.stretch = {stretch.min, stretch.max, stretch.p99};
     summary.self_intersections = std::int64_t(self_intersections(written, faces).size());
     if (bodies.empty()) return;
     summary.body_intersections = 0;
@@ -232,15 +239,13 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
     s.residual = residual;
     const Energies energies = phase.system().energies();
     s.energy = {energies.membrane, energies.bending, energies.gravity, energies.contact, energies.kinetic};
-    const StretchMeasure stretch = measure_stretch(cloth, positions);
-    s.stretch = {stretch.min, stretch.max, stretch.p99};
     if (query && !query->empty()) {
         const State& state = phase.state();
         const BodyGap gap = query->measure(state.pos.data(), state.size.vertex_stride, state.size.vertex_count);
         s.body_max_penetration = gap.max_penetration_m;
         s.body_min_gap = gap.min_gap_m;
     }
-    count_intersections(s, positions, phase.topology(), bodies);
+    measure_written(s, positions, phase.topology(), bodies);
     s.seam_count = int(cloth.seams.size());
     if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
     for (const PanelMeasure& p : measure_panels(cloth, positions))

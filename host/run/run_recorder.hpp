@@ -60,8 +60,8 @@ public:
 private:
     double frame_time_after(double time) const;
     void write_meshes(const std::vector<Vec3>& positions, const std::vector<TriangleMesh>& bodies);
-    void count_intersections(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
-                             const std::vector<TriangleMesh>& bodies) const;
+    void measure_written(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
+                         const std::vector<TriangleMesh>& bodies) const;
     void draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);
 
     const RunSettings& settings_;

@@ -29,7 +29,11 @@ struct TrajectoryLayout {
     std::vector<Vec2> panel_coordinates;                   ///< Per point: (weft, warp) [m].
     std::vector<int> panel;                                ///< Per point: index into panel_names.
     std::vector<std::array<double, 3>> rest_edge_lengths;  ///< Per triangle: edges 01, 12, 20 [m].
-    std::vector<std::array<int, 2>> seam_pairs;            ///< Points that are sewn to each other.
+    /// Per triangle: (weft, warp) of its corners in its own panel [m], written in single precision. Sewn panels share
+    /// points, so that the coordinates per point are those of one panel only. Empty: a file of an earlier version.
+    std::vector<std::array<Vec2, 3>> rest_corners;
+    std::vector<int> triangle_panel;             ///< Per triangle: index into panel_names; or empty as well.
+    std::vector<std::array<int, 2>> seam_pairs;  ///< Points that are sewn to each other.
     std::vector<std::string> panel_names;
     std::string scene_text;  ///< The whole scene as run.
     std::string scene_file;  ///< Absolute path of the scene, or builtin:NAME.
@@ -48,7 +52,9 @@ struct FrameScalars {
     int iterations = 0;  ///< Newton iterations since the previous frame.
 };
 
-/// Writes run.h5, a temporal VTKHDF PolyData file, and run.xdmf beside it.
+/// Writes run.h5, a temporal VTKHDF PolyData file, and beside it run.xdmf and run.vtkhdf, a second name (hard link) of
+/// the same file: programs that go by the ending take it for VTKHDF. The second name follows when the file is replaced;
+/// after a kill in between it is the file before, until the run is resumed.
 ///
 /// A frame is committed when write_frame returns. A file whose writer was killed at any moment can be opened and holds
 /// every committed frame; their number is Steps@NSteps. It may also hold parts of one more frame.
@@ -73,6 +79,8 @@ public:
     /// @throws std::runtime_error naming the vertex if a position is not finite; nothing is written then.
     void write_frame(std::span<const Vec3> positions, const FrameScalars& scalars);
 
+    /// False where the file system has no hard links, so that there is no run.vtkhdf.
+    bool has_second_name() const { return has_second_name_; }
     int frame_count() const { return int(times_.size()); }
     double last_time() const { return times_.empty() ? 0 : times_.back(); }  ///< Time of the last committed frame [s].
 
@@ -87,6 +95,7 @@ private:
     std::string path_;
     int point_count_, triangle_count_;
     double spacing_;
+    bool has_second_name_;
     std::vector<double> times_;  ///< Times of the committed frames [s].
     std::chrono::steady_clock::time_point index_written_{};
     std::vector<float> buffer_;  ///< Rounded positions of one frame.

@@ -18,6 +18,9 @@ void check(const TrajectoryLayout& layout)
         throw std::invalid_argument("trajectory: point arrays differ in length from the points");
     if (layout.rest_edge_lengths.size() != layout.triangles.size())
         throw std::invalid_argument("trajectory: rest_edge_lengths differ in length from the triangles");
+    if (layout.rest_corners.size() != layout.triangle_panel.size() ||
+        (!layout.rest_corners.empty() && layout.rest_corners.size() != layout.triangles.size()))
+        throw std::invalid_argument("trajectory: rest_corners or panels differ in length from the triangles");
     for (const Face& face : layout.triangles)
         if (!std::ranges::all_of(face, is_point)) throw std::invalid_argument("trajectory: triangle without its point");
     for (const auto& pair : layout.seam_pairs)
@@ -48,6 +51,31 @@ void write_cells(Hdf5File& file, const std::string& group, const std::vector<Fac
     file.write(group + "/Connectivity", H5T_STD_I64LE, {connectivity.size()}, connectivity, storage);
 }
 
+// A virtual dataset that shows all numbers of another one in another shape.
+void write_view(Hdf5File& file, const char* name, const std::vector<hsize_t>& shape, const char* source,
+                const std::vector<hsize_t>& source_shape)
+{
+    const Hdf5Id space(H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose, name);
+    const Hdf5Id source_space(H5Screate_simple(int(source_shape.size()), source_shape.data(), nullptr), H5Sclose, name);
+    const Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+    require_hdf5(H5Pset_virtual(properties, space, ".", source, source_space), name);
+    Hdf5Id(H5Dcreate2(file.id(), name, H5T_IEEE_F32LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, name);
+}
+
+// VTK reads arrays of two dimensions only; everyone else gets the corners in three.
+void write_rest_corners(Hdf5File& file, const TrajectoryLayout& layout, const Hdf5Storage& storage)
+{
+    if (layout.rest_corners.empty()) return;
+    std::vector<double> corners;
+    for (const auto& triangle : layout.rest_corners)
+        for (const Vec2& corner : triangle) corners.insert(corners.end(), {corner.x(), corner.y()});
+    const std::vector<std::int64_t> panel(layout.triangle_panel.begin(), layout.triangle_panel.end());
+    const hsize_t count = panel.size();
+    file.write(rest_corners, H5T_IEEE_F32LE, {count, 6}, corners, storage);
+    file.write(triangle_panel, H5T_STD_I32LE, {count}, panel, storage);
+    write_view(file, "/selvage/rest_corners", {count, 3, 2}, rest_corners, {count, 6});
+}
+
 void write_arrays(Hdf5File& file, const TrajectoryLayout& layout)
 {
     const Hdf5Storage compressed{.compressed = true, .growing = false, .chunk = {}, .checked = false};
@@ -61,6 +89,7 @@ void write_arrays(Hdf5File& file, const TrajectoryLayout& layout)
     file.write("/VTKHDF/PointData/panel_coordinates", H5T_IEEE_F32LE, {point_count, 2}, coordinates, compressed);
     file.write("/VTKHDF/PointData/panel", H5T_STD_I32LE, {point_count}, panel, compressed);
     file.write("/VTKHDF/CellData/rest_edge_lengths", H5T_IEEE_F32LE, {triangle_count, 3}, lengths, compressed);
+    write_rest_corners(file, layout, compressed);
     file.write("/selvage/triangles", H5T_STD_I32LE, {triangle_count, 3}, flatten_integers(layout.triangles),
                compressed);
     file.write("/selvage/seam_pairs", H5T_STD_I32LE, {layout.seam_pairs.size(), 2}, flatten_integers(layout.seam_pairs),
@@ -175,15 +204,7 @@ void write_positions_view(Hdf5File& file, int frame_count, int point_count)
 {
     if (frame_count == 0) return;
     const hsize_t frames = hsize_t(frame_count), rows = hsize_t(point_count);
-    const std::array<hsize_t, 3> view_shape{frames, rows, 3};
-    const std::array<hsize_t, 2> source_shape{frames * rows, 3};
-    const Hdf5Id view_space(H5Screate_simple(3, view_shape.data(), nullptr), H5Sclose, "positions");
-    const Hdf5Id source_space(H5Screate_simple(2, source_shape.data(), nullptr), H5Sclose, "positions");
-    const Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "positions");
-    require_hdf5(H5Pset_virtual(properties, view_space, ".", points, source_space), "positions");
-    Hdf5Id(H5Dcreate2(file.id(), "/selvage/views/positions", H5T_IEEE_F32LE, view_space, H5P_DEFAULT, properties,
-                      H5P_DEFAULT),
-           H5Dclose, "positions");
+    write_view(file, "/selvage/views/positions", {frames, rows, 3}, points, {frames * rows, 3});
 }
 
 }  // namespace selvage::trajectory_format

@@ -9,6 +9,8 @@
 namespace selvage::trajectory_format {
 
 inline constexpr const char* points = "/VTKHDF/Points";
+inline constexpr const char* rest_corners = "/VTKHDF/CellData/rest_corners";
+inline constexpr const char* triangle_panel = "/VTKHDF/CellData/panel";
 inline constexpr const char* steps = "/VTKHDF/Steps";
 inline constexpr const char* schema = "selvage-run-1";
 
@@ -36,11 +38,13 @@ inline constexpr std::array<FrameColumn, 11> frame_columns{{
 }};
 
 /// Datasets that VTK requires and that are equal to a frame column: each is a hard link, {column, link}.
-inline constexpr std::array<std::array<const char*, 2>, 5> column_links{{
+inline constexpr std::array<std::array<const char*, 2>, 7> column_links{{
     {"/VTKHDF/Steps/CellOffsets", "/VTKHDF/Steps/ConnectivityIdOffsets"},
     {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/PointDataOffsets/panel_coordinates"},
     {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/PointDataOffsets/panel"},
     {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/CellDataOffsets/rest_edge_lengths"},
+    {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/CellDataOffsets/rest_corners"},
+    {"/VTKHDF/Steps/PartOffsets", "/VTKHDF/Steps/CellDataOffsets/panel"},
     {"/selvage/time", "/VTKHDF/Steps/Values"},
 }};
 

@@ -33,6 +33,15 @@ std::vector<Row> rows_of(const std::vector<Value>& values)
     return rows;
 }
 
+std::vector<std::array<Vec2, 3>> corners_of(const std::vector<double>& values)
+{
+    std::vector<std::array<Vec2, 3>> corners;
+    for (std::size_t k = 0; k < values.size(); k += 6)
+        corners.push_back(
+            {Vec2(values[k], values[k + 1]), Vec2(values[k + 2], values[k + 3]), Vec2(values[k + 4], values[k + 5])});
+    return corners;
+}
+
 int read_point_count(const Hdf5File& file)
 {
     constexpr const char* name = "/VTKHDF/NumberOfPoints";
@@ -65,6 +74,10 @@ TrajectoryLayout read_layout(const Hdf5File& file)
     layout.panel = file.read_indices("/VTKHDF/PointData/panel", {points}, panels, "panel");
     layout.rest_edge_lengths =
         rows_of<std::array<double, 3>>(file.read_reals("/VTKHDF/CellData/rest_edge_lengths", {triangles, 3}));
+    if (file.exists(rest_corners)) {
+        layout.rest_corners = corners_of(file.read_reals(rest_corners, {triangles, 6}));
+        layout.triangle_panel = file.read_indices(triangle_panel, {triangles}, panels, "panel");
+    }
     layout.seam_pairs =
         rows_of<std::array<int, 2>>(file.read_indices("/selvage/seam_pairs", {any, 2}, layout.point_count, "point"));
     layout.scene_text = file.text("/selvage", "scene_text");

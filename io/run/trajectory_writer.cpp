@@ -28,6 +28,24 @@ void put_header(const std::string& path, const TrajectoryLayout& layout)
     move_into_place(temporary_name(path), path);
 }
 
+// Gives a file a second name, which takes the place of one that another file had.
+bool put_second_name(const std::string& path)
+{
+    const std::string name = std::filesystem::path(path).replace_extension(".vtkhdf").string();
+    const std::string temporary = temporary_name(name);
+    std::error_code error;
+    std::filesystem::remove(temporary, error);
+    std::filesystem::create_hard_link(path, temporary, error);
+    if (error) {
+        std::filesystem::remove(name, error);
+        return false;
+    }
+    std::filesystem::rename(temporary, name, error);
+    std::error_code gone;
+    std::filesystem::remove(temporary, gone);  // renaming to a name of the same file does nothing
+    return !error;
+}
+
 void lengthen_points(hid_t points_dataset, int frame_count, int point_count)
 {
     const std::array<hsize_t, 2> shape{hsize_t(frame_count) * hsize_t(point_count), 3};
@@ -89,8 +107,8 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 
 TrajectoryWriter::TrajectoryWriter(const std::string& path, const TrajectoryLayout& layout, std::vector<double> times)
     : path_(path), point_count_(layout.point_count), triangle_count_(int(layout.triangles.size())),
-      spacing_(grid_spacing(layout.grid)), times_(std::move(times)), buffer_(3 * layout.panel.size()),
-      open_(std::make_unique<Datasets>(path))
+      spacing_(grid_spacing(layout.grid)), has_second_name_(put_second_name(path)), times_(std::move(times)),
+      buffer_(3 * layout.panel.size()), open_(std::make_unique<Datasets>(path))
 {
     write_index_file();
 }

@@ -44,6 +44,8 @@ TrajectoryLayout square(PositionGrid grid)
     layout.panel_coordinates = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 2}};
     layout.panel = {0, 0, 1, 1, 1};
     layout.rest_edge_lengths = {{1, 1.5, 1}, {1, 1, 1.5}};
+    layout.rest_corners = {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}, {Vec2(5, 0), Vec2(5, 1), Vec2(4, 1)}};
+    layout.triangle_panel = {0, 1};
     layout.seam_pairs = {{0, 3}};
     layout.panel_names = {"front", "back"};
     layout.scene_text = "[sheet]\n" + std::string(70000, '#');  // Longer than an HDF5 object header.
@@ -98,6 +100,8 @@ TEST_CASE("a trajectory is read back as it was written")
     CHECK(run.layout().panel_coordinates == layout.panel_coordinates);
     CHECK(run.layout().panel == layout.panel);
     CHECK(run.layout().rest_edge_lengths == layout.rest_edge_lengths);
+    CHECK(run.layout().rest_corners == layout.rest_corners);
+    CHECK(run.layout().triangle_panel == layout.triangle_panel);
     CHECK(run.layout().seam_pairs == layout.seam_pairs);
     CHECK(run.layout().panel_names == layout.panel_names);
     CHECK(run.layout().scene_text == layout.scene_text);
@@ -124,9 +128,31 @@ TEST_CASE("a run file has the layout that VTK and h5py users rely on")
     CHECK(file.read_integers("/VTKHDF/Steps/NumberOfParts") == std::vector<std::int64_t>{1, 1, 1});
     CHECK(file.shape("/VTKHDF/Steps/ConnectivityIdOffsets") == std::vector<hsize_t>{3, 4});
     CHECK(file.shape("/VTKHDF/Steps/CellDataOffsets/rest_edge_lengths") == std::vector<hsize_t>{3});
+    CHECK(file.shape("/VTKHDF/CellData/rest_corners") == std::vector<hsize_t>{2, 6});
+    CHECK(file.shape("/selvage/rest_corners") == std::vector<hsize_t>{2, 3, 2});
     CHECK(file.read_integers("/VTKHDF/Polygons/Offsets") == std::vector<std::int64_t>{0, 3, 6});
     for (const char* empty : {"Vertices", "Lines", "Strips"})
         CHECK(file.read_integers(std::string("/VTKHDF/") + empty + "/Offsets") == std::vector<std::int64_t>{0});
+}
+
+TEST_CASE("a trajectory has a second name that VTK programs know, also once it has been continued")
+{
+    const Folder folder;
+    const std::string path = folder.file("run.h5"), second = folder.file("run.vtkhdf");
+    std::ofstream(second) << "something older";
+    {
+        TrajectoryWriter writer = TrajectoryWriter::create(path, square(PositionGrid::lossless));
+        CHECK(writer.has_second_name());
+        CHECK(std::filesystem::equivalent(path, second));
+        write_frames(writer, 3);
+    }
+    TrajectoryWriter writer = TrajectoryWriter::resume(path, 2);
+    CHECK(std::filesystem::equivalent(path, second));
+    write_frames(writer, 4);
+    writer.finish();
+    check_frames(second, 4, 1e-6);
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path))
+        CHECK(entry.path().extension() != ".partial");
 }
 
 TEST_CASE("rounding moves positions by at most half a grid spacing and onto the grid")
@@ -216,7 +242,7 @@ TEST_CASE("the index for ParaView names every frame with its time and rows")
     write_frames(writer, 3);
     writer.finish();
     const std::string text = text_of(folder.file("a&b.xdmf"));
-    CHECK(text.find("a&amp;b.h5:/VTKHDF/Points|10 0:1 1:5 3:15 3<") != std::string::npos);
+    CHECK(text.find("a&amp;b.h5:/VTKHDF/Points|10 0:1 1:5 3:15 3\n") != std::string::npos);
     CHECK(text.find("<Time Value=\"0.08\"/>") != std::string::npos);
     CHECK(text.find("|15 0:") == std::string::npos);
 }

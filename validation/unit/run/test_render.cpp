@@ -8,6 +8,7 @@
 #include "host/render/line_marks.hpp"
 #include "host/render/picture.hpp"
 #include "host/render/sampling.hpp"
+#include "host/run/render_run.hpp"
 #include "io/errors.hpp"
 #include "validation/unit/catch.hpp"
 
@@ -96,6 +97,24 @@ TEST_CASE("a seam darkens the pixels along it and leaves the rest of the cloth a
     const int row = plain.height / 2;
     CHECK(brightness(sewn.at(50, row)) < 0.8 * brightness(plain.at(50, row)));
     CHECK(std::abs(brightness(sewn.at(30, row)) - brightness(plain.at(30, row))) <= 3);
+}
+
+TEST_CASE("a run's seams are the edges whose ends lie in two places of the flat cloth, darts among them", "[render]")
+{
+    // A strip of four triangles: a panel of two, the second one sewn to it by a dart, and one of two by a seam.
+    TrajectoryLayout layout;
+    layout.point_count = 6;
+    layout.triangles = {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 5, 4}};
+    layout.panel = {0, 0, 0, 0, 1, 1};  // points that panels share belong to the first one
+    layout.triangle_panel = {0, 0, 1, 1};
+    layout.rest_corners = {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)},
+                           {Vec2(1.1, 0), Vec2(1.1, 1), Vec2(0.1, 1)},
+                           {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)},
+                           {Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}};
+    using Edges = std::vector<std::array<int, 2>>;
+    CHECK(seam_edges(layout) == Edges{{1, 2}, {2, 3}});
+    layout.rest_corners.clear();
+    CHECK(seam_edges(layout) == Edges{{2, 3}});
 }
 
 TEST_CASE("a body shows where the cloth does not cover it", "[render]")
