@@ -168,6 +168,7 @@ Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::st
         lengths.emplace_back();
         for (const PatternEdge& edge : panel.edges) lengths.back().push_back(EdgePath(panel, edge).length());
     }
+    check_seam_lengths(pattern, lengths);
     check_size(pattern, lengths, edge_length, max_vertices);
     const std::vector<MeshedPanel> meshed =
         mesh_all(pattern, edge_segments(pattern, lengths, edge_length), edge_length);

@@ -250,7 +250,8 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
     if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
     for (const PanelMeasure& p : measure_panels(cloth, positions))
         s.panels.push_back({p.name, p.area_error, p.boundary_error});
-    for (const Finding& finding : model_.findings) s.warnings.push_back(describe(finding));
+    for (const Finding& finding : model_.findings)
+        if (finding.severity != Severity::note) s.warnings.push_back(describe(finding));
     s.peak_memory_bytes = peak_memory_bytes();
     s.wall_s = wall_seconds;
     write_summary(folder_ + "/summary.json", s);

@@ -11,6 +11,8 @@ namespace {
 
 double mebibytes(std::size_t bytes) { return double(bytes) / (1 << 20); }
 
+const char* list_of(const Finding& finding) { return finding.severity == Severity::note ? "notes" : "warnings"; }
+
 std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan& plan)
 {
     nlohmann::ordered_json json;
@@ -36,8 +38,8 @@ std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan
         json["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});
     json["embree"] = plan.embree;
     json["peak_bytes"] = plan.peak_bytes;
-    json["warnings"] = nlohmann::json::array();
-    for (const Finding& finding : model.findings) json["warnings"].push_back(describe(finding));
+    json["warnings"] = json["notes"] = nlohmann::json::array();
+    for (const Finding& finding : model.findings) json[list_of(finding)].push_back(describe(finding));
     return json.dump(2) + "\n";
 }
 
@@ -60,7 +62,8 @@ std::string plan_text(const Scene& scene, const SceneModel& model, const RunPlan
     for (const SkippedFeature& skipped : plan.skipped)
         text += fmt::format("  {:<14} {}\n", skipped.name, skipped.reason);
     text += fmt::format("\nmemory of the whole run: about {:.0f} MiB\n", mebibytes(plan.peak_bytes));
-    for (const Finding& finding : model.findings) text += "warning: " + describe(finding) + "\n";
+    for (const Finding& finding : model.findings)
+        text += (finding.severity == Severity::note ? "note: " : "warning: ") + describe(finding) + "\n";
     return text;
 }
 

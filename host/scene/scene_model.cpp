@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "host/examine/pattern.hpp"
+#include "host/examine/scene.hpp"
 #include "host/garment/assemble.hpp"
 #include "host/garment/catalogue.hpp"
 #include "host/garment/sheet.hpp"
@@ -49,10 +51,10 @@ Pattern read_pattern(const Scene& scene)
 {
     constexpr std::string_view prefix = "builtin:";
     const std::string& name = scene.garment.pattern;
-    Pattern pattern =
-        name.starts_with(prefix)
-            ? builtin_pattern(name.substr(prefix.size()), scene.garment.size)
-            : read_pattern_json(scene.resolve(name), {scene.garment.up_axis, scene.garment.rotation_order});
+    Pattern pattern = name.starts_with(prefix)
+                          ? builtin_pattern(name.substr(prefix.size()), scene.garment.size)
+                          : read_pattern_json(scene.resolve(name), {scene.garment.up_axis, scene.garment.rotation_order,
+                                                                    scene.places.contains("garment.rotation_order")});
     if (pattern.file.empty()) pattern.file = name;
     for (PatternPanel& panel : pattern.panels) panel.translation += scene.garment.translation;
     return pattern;
@@ -192,6 +194,8 @@ SceneModel build_scene_model(const Scene& scene)
     add_coarser_levels(scene, pattern, result.cloth_model);
     result.findings = pattern.findings;
     append_findings(result.findings, result.cloth_model.cloth.findings);
+    if (scene.has_garment())
+        append_findings(result.findings, examine_pattern(pattern, result.cloth_model.cloth, scene.garment.resolution));
     result.sews = !result.cloth_model.cloth.seam_pairs.empty();
     result.edge_length = typical_edge(result.cloth_model.cloth);
     result.least_height = least_height(result.cloth_model.cloth);
@@ -202,6 +206,7 @@ SceneModel build_scene_model(const Scene& scene)
              fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
                          "presses on cloth from less than that height only",
                          result.least_height, result.edge_length)});
+    append_findings(result.findings, examine_scene(scene, result.cloth_model, result.edge_length));
     if (!scene.has_garment()) {
         add_ripple(result.cloth_model.cloth);
         for (Cloth& coarser : result.cloth_model.coarser) add_ripple(coarser);

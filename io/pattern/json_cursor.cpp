@@ -67,7 +67,10 @@ JsonDocument parse_json(std::string_view text, const std::string& file)
     return document;
 }
 
-InputPlace JsonCursor::place() const { return place_of_value(document_->text, document_->file, path_); }
+InputPlace JsonCursor::place_of(const std::string& path) const
+{
+    return place_of_value(document_->text, document_->file, path);
+}
 
 void JsonCursor::refuse(std::string_view expected, std::string_view nearest) const
 {

@@ -54,7 +54,9 @@ public:
 
     const std::string& path() const { return path_; }
     /// Returns where the value stands, which is searched in the whole text: for messages only.
-    InputPlace place() const;
+    InputPlace place() const { return place_of(path_); }
+    /// Returns the place of any key path of the document.
+    InputPlace place_of(const std::string& path) const;
     [[noreturn]] void refuse(std::string_view expected, std::string_view nearest = {}) const;
     [[noreturn]] void refuse_as(std::string_view found, std::string_view expected, std::string_view nearest = {}) const;
 

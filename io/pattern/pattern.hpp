@@ -57,11 +57,17 @@ struct Pattern {
     std::vector<PatternPanel> panels;
     std::vector<PatternStitch> stitches;
     std::vector<Finding> findings;  ///< Values that the reader found unusual but could use.
+    double units_in_meter = 100;    ///< Of the file's lengths.
     std::string file;               ///< That it was read from, or `builtin:NAME`.
     std::string text;               ///< Of the file, in which the places of findings are searched; may be empty.
 
     /// Returns the place of a key path such as `pattern.panels.front.edges[3]`, with its line where that is known.
     InputPlace place(const std::string& key) const;
 };
+
+/// Returns what a length would mean in each unit, such as "`100` for 1.7 m, `1000` for 0.17 m ...", the numbers being
+/// values of properties.units_in_meter.
+/// @param units  the length as the file has it
+std::string unit_meanings(double units);
 
 }  // namespace selvage

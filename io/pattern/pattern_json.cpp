@@ -49,6 +49,7 @@ private:
     PatternPanel read_panel(const std::string& name, const JsonCursor& cursor);
     void read_vertices(const JsonCursor& cursor, PatternPanel& panel) const;
     void read_placement(const JsonCursor& cursor, PatternPanel& panel);
+    void note_rotation_order();
     void read_stitch(const JsonCursor& cursor);
     StitchSide read_side(const JsonCursor& cursor) const;
     void claim_edge(StitchSide side, const JsonCursor& cursor, const std::string& stitch);
@@ -57,6 +58,7 @@ private:
     const PatternConventions& conventions_;
     PatternUnits units_;
     Pattern pattern_;
+    std::vector<std::string> turned_twice_;                ///< Paths of rotations about more than one axis.
     std::map<std::pair<int, int>, std::string> stitched_;  ///< Maps (panel, edge) to the stitch that uses it.
 };
 
@@ -68,6 +70,7 @@ Pattern PatternReader::read()
     const JsonCursor panels = pattern.at("panels").object();
     if (panels.size() == 0) panels.refuse_as("no panels", "at least one panel");
     for (const std::string& name : panel_order(panels)) pattern_.panels.push_back(read_panel(name, panels.at(name)));
+    note_rotation_order();
 
     if (!pattern.has("stitches")) return std::move(pattern_);
     const JsonCursor stitches = pattern.at("stitches").list("a list of stitches");
@@ -83,6 +86,7 @@ void PatternReader::read_properties()
     const double per_metre = units.number(expected);
     if (!(per_metre > 0 && per_metre <= 1e6)) units.refuse(expected);
     units_.scale = 1 / per_metre;
+    pattern_.units_in_meter = per_metre;
     if (!properties.has("curvature_coords")) return;
     const JsonCursor coordinates = properties.at("curvature_coords");
     const std::vector<std::string> words{"relative", "absolute"};
@@ -136,7 +140,9 @@ void PatternReader::read_vertices(const JsonCursor& cursor, PatternPanel& panel)
     if (extent >= PanelLimits::smallest && extent <= PanelLimits::largest) return;
     cursor.refuse_as(
         "a panel that measures " + rounded_text(extent) + " m with units_in_meter = " + rounded_text(1 / units_.scale),
-        "a panel of " + range_text(PanelLimits::smallest, PanelLimits::largest, "m"), unit_hint(extent / units_.scale));
+        "a panel of " + range_text(PanelLimits::smallest, PanelLimits::largest, "m") +
+            "; units_in_meter = " + unit_meanings(extent / units_.scale),
+        unit_hint(extent / units_.scale));
 }
 
 void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel)
@@ -163,15 +169,22 @@ void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel
         turn = Eigen::AngleAxisd(angles[axis] * degree, Vec3::Unit(axis)).toRotationMatrix() * turn;
         axes_used += std::abs(std::remainder(angles[axis], 360)) > 1e-9;
     }
-    if (axes_used > 1)
-        pattern_.findings.push_back({"rotation", cursor.at("rotation").place(),
-                                     "turns about " + std::to_string(axes_used) +
-                                         " axes, for which writers of this format use different orders: taken as `" +
-                                         text_of(conventions_.rotation_order) + "`",
-                                     "garment.rotation_order sets the order"});
+    if (axes_used > 1) turned_twice_.push_back(cursor.path() + ".rotation");
     const Mat3 up = z_up_from(find_word<Axis>(word_of(conventions_.up)).value_or(Axis::y));
     panel.rotation = up * turn;
     panel.translation = up * moved;
+}
+
+void PatternReader::note_rotation_order()
+{
+    if (turned_twice_.empty() || conventions_.order_is_given) return;
+    const std::size_t others = turned_twice_.size() - 1;
+    pattern_.findings.push_back({"rotation", root_.place_of(turned_twice_.front()),
+                                 "turns about several axes" +
+                                     (others > 0 ? ", as " + std::to_string(others) + " more do" : std::string()) +
+                                     ", for which writers of this format use different orders: taken as `" +
+                                     text_of(conventions_.rotation_order) + "`",
+                                 "garment.rotation_order sets the order"});
 }
 
 StitchSide PatternReader::read_side(const JsonCursor& cursor) const

@@ -10,6 +10,7 @@ namespace selvage {
 struct PatternConventions {
     PatternAxis up = PatternAxis::automatic;  ///< Up direction; automatic: y.
     RotationOrder rotation_order = RotationOrder::xyz;
+    bool order_is_given = false;  ///< The user chose the order: nothing need be said about it.
 };
 
 /// Reads a sewing pattern in GarmentCode's JSON format (Korosteleva and Sorkine-Hornung 2023).

@@ -88,7 +88,7 @@
 #define FABRIC_KEYS(KEY, WORD, CHOICE, CURVE)                                                                          \
     WORD(base, "", "preset whose values are used where this table is silent")                                          \
     KEY(double, areal_density, automatic, "kg/m^2", 0.005, 5, "mass per area")                                         \
-    KEY(double, thickness, automatic, "m", 1e-5, 0.02, "thickness")                                                    \
+    KEY(double, thickness, automatic, "m", 1e-5, 0.02, "thickness; default: the base's, else 0.0003")                  \
     KEY(double, stretch_weft, automatic, "N/m", 0.1, 1e7,                                                              \
         "membrane stiffness along weft; with a curve: its slope at 0")                                                 \
     KEY(double, stretch_warp, automatic, "N/m", 0.1, 1e7,                                                              \
@@ -120,8 +120,8 @@
         "2HB along weft as KES-FB2 measures it: width of the moment loop per width of fabric; 0, the default: none; "  \
         "only with bending.hysteresis")                                                                                \
     KEY(double, hysteresis_warp, automatic, "N", 0, 0.1, "2HB along warp, as for weft")                                \
-    KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient against a body")                                 \
-    KEY(double, damping, automatic, "1/s", 0, 1000, "viscous drag per unit mass")                                      \
+    KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient against a body; default: the base's, else 0.3")  \
+    KEY(double, damping, automatic, "1/s", 0, 1000, "viscous drag per unit mass; default: the base's, else 0.5")       \
     WORD(source, "", "where the values come from")
 
 #define SOLVER_KEYS(KEY, WORD, CHOICE, VEC3)                                                                          \

@@ -309,12 +309,7 @@ TEST_CASE("both sides of a seam are sampled alike, in opposite directions unless
     CHECK(cloth.findings.empty());
 
     pattern.stitches[0].same_direction = true;
-    const Cloth crossed = assemble(pattern, 0.02);
-    CHECK(crossed.seam_pairs.front()[1] == b.vertices.front());
-    REQUIRE(crossed.findings.size() == 1);
-    CHECK(describe(crossed.findings[0]).find("left.edges[1]") != std::string::npos);
-    CHECK(describe(crossed.findings[0]).find("right.edges[3]") != std::string::npos);
-    CHECK(describe(crossed.findings[0]).find("right_wrong") != std::string::npos);
+    CHECK(assemble(pattern, 0.02).seam_pairs.front()[1] == b.vertices.front());
 }
 
 TEST_CASE("a dart does not pair its tip with itself and no pair is listed twice")
