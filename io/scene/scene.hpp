@@ -34,7 +34,9 @@ struct Scene {
     std::map<std::string, InputPlace> places;          ///< Key path to its place in the file, for later messages.
 
     bool has_garment() const { return !garment.pattern.empty(); }
-    bool moves() const;  ///< A body or a pin has a motion of its own.
+    bool wind_blows() const;                                         ///< The air moves.
+    bool has_air() const { return wind_blows() || wind.still_air; }  ///< Air acts on the cloth.
+    bool moves() const;                                              ///< A body or a pin has a motion of its own.
     /// Returns solver.until.
     /// @throws InputError if it is neither the word nor a time
     Until until() const;

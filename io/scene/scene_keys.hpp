@@ -215,7 +215,19 @@
     VEC3(axis, 0, 0, 1, "1", "direction of the axis")                                                          \
     VEC3(point, 0, 0, 0, "m", "a point of the axis")
 
-#define WIND_KEYS(KEY, WORD, CHOICE, VEC3) VEC3(velocity, 0, 0, 0, "m/s", "wind; zero: none")
+#define WIND_KEYS(KEY, WORD, CHOICE, VEC3)                                                                             \
+    VEC3(velocity, 0, 0, 0, "m/s", "mean velocity of the air")                                                         \
+    KEY(bool, still_air, false, "1", 0, 1,                                                                             \
+        "air resists the cloth's motion even where it does not move itself; moving air always does")                   \
+    KEY(double, density, 1.2, "kg/m^3", 1e-3, 2e3, "of the air")                                                       \
+    KEY(double, normal_coefficient, 1.2, "1", 0, 10,                                                                   \
+        "pressure along a face's normal over density/2 times the square of the air's velocity along it past the "      \
+        "face: drag, and lift on faces that are inclined")                                                             \
+    KEY(double, tangential_coefficient, 0.02, "1", 0, 10, "the same in the plane of the face, of both sides together") \
+    KEY(double, gust, 0, "m/s", 0, 100,                                                                                \
+        "standard deviation of each component of the gusts; not in runs to equilibrium")                               \
+    KEY(double, gust_time, 3, "s", 0.01, 1e4, "period of the slowest and strongest waves of the gusts")                \
+    KEY(int, seed, 1, "1", 0, 1e9, "of the gusts: the same seed gives the same gusts, whatever the step")
 
 #define OUTPUT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                     \
     CHOICE(precision, PositionGrid, fine_8um, "grid to which written positions are rounded")                     \
@@ -228,13 +240,13 @@
     KEY(bool, keep_checkpoint, false, "1", 0, 1, "keep the checkpoint at a normal end")
 
 // Tables that appear once: TABLE(name, struct, keys, meaning)
-#define SCENE_TABLES(TABLE)                                                            \
-    TABLE(garment, GarmentScene, GARMENT_KEYS, "a garment sewn from a pattern")        \
-    TABLE(solver, SolverScene, SOLVER_KEYS, "how and how long the motion is computed") \
-    TABLE(contact, ContactScene, CONTACT_KEYS, "contact between cloth and bodies")     \
-    TABLE(membrane, MembraneScene, MEMBRANE_KEYS, "in-plane elasticity")               \
-    TABLE(bending, BendingScene, BENDING_KEYS, "bending elasticity")                   \
-    TABLE(seams, SeamsScene, SEAMS_KEYS, "how panels are sewn together")               \
-    TABLE(pins, PinsScene, PINS_KEYS, "which vertices are held in place")              \
-    TABLE(wind, WindScene, WIND_KEYS, "moving air")                                    \
+#define SCENE_TABLES(TABLE)                                                                                     \
+    TABLE(garment, GarmentScene, GARMENT_KEYS, "a garment sewn from a pattern")                                 \
+    TABLE(solver, SolverScene, SOLVER_KEYS, "how and how long the motion is computed")                          \
+    TABLE(contact, ContactScene, CONTACT_KEYS, "contact between cloth and bodies")                              \
+    TABLE(membrane, MembraneScene, MEMBRANE_KEYS, "in-plane elasticity")                                        \
+    TABLE(bending, BendingScene, BENDING_KEYS, "bending elasticity")                                            \
+    TABLE(seams, SeamsScene, SEAMS_KEYS, "how panels are sewn together")                                        \
+    TABLE(pins, PinsScene, PINS_KEYS, "which vertices are held in place")                                       \
+    TABLE(wind, WindScene, WIND_KEYS, "air that the cloth moves in; none unless it blows or still_air is true") \
     TABLE(output, OutputScene, OUTPUT_KEYS, "what is written")
