@@ -149,8 +149,10 @@ constexpr KeyRule rules[] = {
      "wind.velocity, wind.gust or wind.still_air = true", "wind.velocity wind.gust wind.still_air"},
     {"wind", "still_air", [](const Element& e) { return !e.scene.wind_blows(); },
      "air that does not blow: moving air resists motion anyhow", "wind.velocity wind.gust"},
-    {"wind", "gust_time seed", [](const Element& e) { return e.scene.wind.gust > 0; }, "wind.gust above 0",
-     "wind.gust"},
+    {"wind", "gust", [](const Element& e) { return e.scene.wind.gust == 0 || !to_rest(e); },
+     "solver.until = SECONDS: nothing comes to rest in gusts", "solver.until"},
+    {"wind", "gust_time seed", [](const Element& e) { return e.scene.wind.gust > 0 && !to_rest(e); },
+     "wind.gust above 0, and solver.until = SECONDS", "wind.gust solver.until"},
 
     {"fabric", "hysteresis_weft hysteresis_warp", [](const Element& e) { return e.scene.bending.hysteresis; },
      "bending.hysteresis = true", "bending.hysteresis"},

@@ -146,9 +146,10 @@ Scene scene_of(TomlDocument document, const std::string& source)
 
     check_scene(scene);
     resolve_fabrics(scene);
-    for (const std::string& key : overruled_keys(scene)) {
-        remove_key(document.root, key);
-        scene.places.erase(key);
+    if (const std::vector<std::string> overruled = overruled_keys(scene); !overruled.empty()) {
+        for (const std::string& key : overruled) remove_key(document.root, key);
+        document.places.clear();
+        return scene_of(std::move(document), source);
     }
     std::ostringstream text;
     text << document.root << '\n';

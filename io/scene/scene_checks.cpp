@@ -92,15 +92,6 @@ void check_solver_of_motion(const Scene& scene)
                          "1, as a body or pin moves");
 }
 
-// Where gusts blow nothing comes to rest, and without air its properties say nothing.
-void check_wind(const Scene& scene)
-{
-    if (scene.wind.gust > 0 && scene.until().equilibrium)
-        throw InputError(
-            scene.place("wind.gust"), number_text(scene.wind.gust) + " m/s",
-            "0, or solver.until = SECONDS: nothing comes to rest in gusts. Steady wind has an equilibrium");
-}
-
 // A key that the response in use has no place for is a mistake, and so is what a rule on velocities cannot do.
 void check_response(const Scene& scene)
 {
@@ -176,7 +167,6 @@ void check_scene(const Scene& scene)
     for (int sheet = 0; sheet < int(scene.sheets.size()); ++sheet) check_sheet(scene, sheet, sheets);
     for (int body = 0; body < int(scene.bodies.size()); ++body) check_body(scene, body, names);
     check_until(scene);
-    check_wind(scene);
     check_pins(scene);
     check_solver_of_motion(scene);
     check_response(scene);

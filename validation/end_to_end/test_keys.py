@@ -357,6 +357,16 @@ class Keys(unittest.TestCase):
         self.assertNotIn("tolerance", told)
         self.assertNotIn("fabric.own", told)
 
+    def test_a_scene_with_gusts_can_be_asked_for_its_rest_in_the_mean_wind(self):
+        gusts = self.write(toml_text(scene(HANG, wind={"velocity": [1, 0, 0], "gust": 2, "seed": 3})))
+        plans = [subprocess.run([PROGRAM, "plan", f"{name}.toml", "--json", "--set", "solver.until=equilibrium"],
+                                cwd=self.root, capture_output=True, text=True, timeout=100)
+                 for name in [gusts, self.write(toml_text(scene(HANG, wind={"velocity": [1, 0, 0]})))]]
+        for plan in plans:
+            self.assertEqual(plan.returncode, 0, plan.stderr)
+            self.assertIn("wind", json.loads(plan.stdout)["active"])
+        self.refused(toml_text(scene(REST, wind={"gust": 2})), "wind.gust", "nothing comes to rest")
+
 
 if __name__ == "__main__":
     unittest.main()
