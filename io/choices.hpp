@@ -34,7 +34,7 @@
 #define SHEET_RIMS(WORD) \
     WORD(corners) WORD(top_corners) WORD(right_corners) WORD(top_edge) WORD(left_edge) WORD(right_edge)
 #define PIN_GROUPS(WORD) WORD(none) SHEET_RIMS(WORD) WORD(two_rows) WORD(center)
-#define MOVING_PIN_GROUPS(WORD) SHEET_RIMS(WORD) WORD(center)
+#define MOVING_PIN_GROUPS(WORD) WORD(automatic) SHEET_RIMS(WORD) WORD(two_rows) WORD(center)
 
 #define POSITION_GRIDS(WORD) WORD(lossless) WORD(fine_8um, "8um") WORD(coarse_60um, "60um")
 

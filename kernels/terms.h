@@ -20,6 +20,7 @@
 #include "terms/plate.h"
 #include "terms/seam.h"
 #include "terms/spring.h"
+#include "terms/wind.h"
 
 #define TERMS(TERM)                                                     \
     TERM(gravity, vertex, conservative, no_stage, external)             \
@@ -31,6 +32,8 @@
     TERM(bending_hysteresis, hinge, conservative, no_stage, bending)    \
     TERM(seam, stitch, conservative, no_stage, seam)                    \
     TERM(damping, vertex, dissipative, no_stage, damping)               \
+    TERM(wind, vertex, conservative, no_stage, air)                     \
+    TERM(air_drag, vertex, dissipative, no_stage, air)                  \
     TERM(body_contact, vertex, conservative, no_stage, contact)         \
     TERM(body_repulsion, vertex, conservative, no_stage, contact)       \
     TERM(friction, vertex, conservative, no_stage, friction)            \

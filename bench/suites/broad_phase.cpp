@@ -129,7 +129,7 @@ struct Sheet {
     {
         SheetScene scene;
         scene.resolution = side;
-        cloth = make_sheet(scene, PinsScene{}, "", "sheet[0]");
+        cloth = make_sheet(scene, "", "sheet[0]");
         surface = tree_surface(make_topology(cloth, true), cloth);
         const int count = int(cloth.positions.size());
         stride = padded_stride(count);

@@ -61,7 +61,7 @@ Cloth square_sheet(int resolution)
     sheet.resolution = resolution;
     sheet.mesh_family = MeshFamily::alternating;
     sheet.fabric = "cotton";
-    return make_sheet(sheet, PinsScene{}, "", "sheet[0]");
+    return make_sheet(sheet, "", "sheet[0]");
 }
 
 void add_stitches(Cloth& cloth, int resolution)

@@ -1,10 +1,8 @@
 #include "host/garment/sheet.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include <Eigen/Geometry>
 
@@ -61,7 +59,8 @@ double face_area(const Cloth& cloth, const Face& face)
 // Fills in the one panel, its area and the length of its rim: sides that belong to a single face.
 void describe_panel(const SheetScene& sheet, Cloth& cloth, const InputPlace& place)
 {
-    ClothPanel panel{place.key, sheet.fabric, 0, int(cloth.panel_coordinates.size()), 0, int(cloth.faces.size()), 0, 0};
+    const std::string& name = sheet.name.empty() ? place.key : sheet.name;
+    ClothPanel panel{name, sheet.fabric, 0, int(cloth.panel_coordinates.size()), 0, int(cloth.faces.size()), 0, 0};
     std::vector<std::array<int, 3>> sides;  // the smaller vertex, the larger one, and whether they run that way
     sides.reserve(3 * cloth.faces.size());
     for (const Face& face : cloth.faces) {
@@ -88,100 +87,6 @@ void describe_panel(const SheetScene& sheet, Cloth& cloth, const InputPlace& pla
         panel.rest_boundary += (cloth.panel_coordinates[sides[i][0]] - cloth.panel_coordinates[sides[i][1]]).norm();
     }
     cloth.panels = {panel};
-}
-
-std::vector<int> listed_vertices(const std::string& list, int vertex_count, const std::string& file)
-{
-    const auto fail = [&](const std::string& found) {
-        throw InputError({file, 0, 0, "pins.vertices"}, found,
-                         "indices from 0 to " + std::to_string(vertex_count - 1) + ", separated by commas");
-    };
-    std::vector<int> vertices;
-    for (std::size_t at = 0; at < list.size();) {
-        const std::size_t comma = std::min(list.find(',', at), list.size());
-        std::string word = list.substr(at, comma - at);
-        word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
-        int vertex = -1;
-        const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), vertex);
-        if (fault != std::errc() || end != word.data() + word.size() || vertex < 0 || vertex >= vertex_count)
-            fail("`" + word + "`");
-        vertices.push_back(vertex);
-        at = comma + 1;
-    }
-    return vertices;
-}
-
-int nearest_vertex(const std::vector<Vec2>& points, const Vec2& place)
-{
-    const auto distance = [&](const Vec2& point) { return (point - place).squaredNorm(); };
-    return int(std::min_element(points.begin(), points.end(),
-                                [&](const Vec2& a, const Vec2& b) { return distance(a) < distance(b); }) -
-               points.begin());
-}
-
-// The vertices nearest to the corners of the bounding box: lower left, lower right, upper left, upper right.
-std::array<int, 4> corner_vertices(const std::vector<Vec2>& points, const Vec2& low, const Vec2& high)
-{
-    return {nearest_vertex(points, low), nearest_vertex(points, Vec2(high.x(), low.y())),
-            nearest_vertex(points, Vec2(low.x(), high.y())), nearest_vertex(points, high)};
-}
-
-// These vertices and all that share a face with one of them.
-std::set<int> with_their_faces(const std::set<int>& vertices, const Cloth& cloth)
-{
-    std::set<int> all = vertices;
-    for (const Face& face : cloth.faces)
-        if (std::any_of(face.begin(), face.end(), [&](int vertex) { return vertices.count(vertex) > 0; }))
-            all.insert(face.begin(), face.end());
-    return all;
-}
-
-// The vertices of a sheet that pins.sheet or pins.motion.group names, sorted.
-std::set<int> group_vertices(PinGroup group, const Cloth& cloth)
-{
-    const std::vector<Vec2>& points = cloth.panel_coordinates;
-    Vec2 low = points.front(), high = points.front();
-    for (const Vec2& point : points) {
-        low = low.cwiseMin(point);
-        high = high.cwiseMax(point);
-    }
-    const double tolerance = 1e-6 * (high - low).maxCoeff();
-    const auto edge = [&](int axis, double at) {
-        std::set<int> held;
-        for (int vertex = 0; vertex < int(points.size()); ++vertex)
-            if (std::abs(points[vertex][axis] - at) <= tolerance) held.insert(vertex);
-        return held;
-    };
-    const std::array<int, 4> corners = corner_vertices(points, low, high);
-    switch (group) {
-        case PinGroup::none:
-            return {};
-        case PinGroup::corners:
-            return {corners.begin(), corners.end()};
-        case PinGroup::top_corners:
-            return {corners[2], corners[3]};
-        case PinGroup::right_corners:
-            return {corners[1], corners[3]};
-        case PinGroup::top_edge:
-            return edge(1, high.y());
-        case PinGroup::left_edge:
-            return edge(0, low.x());
-        case PinGroup::right_edge:
-            return edge(0, high.x());
-        case PinGroup::center:
-            return {nearest_vertex(points, 0.5 * (low + high))};
-        case PinGroup::two_rows:
-            return with_their_faces(edge(0, low.x()), cloth);
-    }
-    return {};
-}
-
-void pin(const PinsScene& pins, Cloth& cloth, const std::string& file)
-{
-    std::set<int> held = group_vertices(pins.sheet, cloth);
-    for (const int vertex : listed_vertices(pins.vertices, int(cloth.panel_coordinates.size()), file))
-        held.insert(vertex);
-    cloth.pinned.assign(held.begin(), held.end());
 }
 
 // Returns the mesh's own plane coordinates; a horizontal mesh keeps its x and y.
@@ -223,7 +128,7 @@ void orient(Cloth& cloth, const InputPlace& place)
 
 }  // namespace
 
-Cloth make_sheet(const SheetScene& sheet, const PinsScene& pins, const std::string& file, const std::string& key)
+Cloth make_sheet(const SheetScene& sheet, const std::string& file, const std::string& key)
 {
     const InputPlace place{file, 0, 0, key};
     if (sheet.shape == SheetShape::mesh)
@@ -238,12 +143,11 @@ Cloth make_sheet(const SheetScene& sheet, const PinsScene& pins, const std::stri
     for (const Vec2& point : cloth.panel_coordinates)
         cloth.positions.push_back(rotation * Vec3(point.x(), point.y(), 0) + sheet.center);
     describe_panel(sheet, cloth, place);
-    pin(pins, cloth, file);
     return cloth;
 }
 
 Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture_coordinates, const SheetScene& sheet,
-                      const PinsScene& pins, const std::string& file, const std::string& key)
+                      const std::string& file, const std::string& key)
 {
     const InputPlace place{file, 0, 0, key};
     if (mesh.vertices.empty() || mesh.faces.empty())
@@ -267,25 +171,7 @@ Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture
     const Mat3 rotation = turned(sheet.rotation);
     for (const Vec3& vertex : mesh.vertices) cloth.positions.push_back(rotation * (vertex - middle) + sheet.center);
     describe_panel(sheet, cloth, place);
-    pin(pins, cloth, file);
     return cloth;
-}
-
-void add_pin_motions(Cloth& sheet, const std::vector<PinMotionScene>& motions)
-{
-    std::set<int> held(sheet.pinned.begin(), sheet.pinned.end());
-    for (const PinMotionScene& motion : motions) {
-        const std::set<int> group = group_vertices(find_word<PinGroup>(word_of(motion.group)).value(), sheet);
-        held.insert(group.begin(), group.end());
-        sheet.pin_motions.push_back({{group.begin(), group.end()},
-                                     motion.start,
-                                     motion.end,
-                                     motion.velocity,
-                                     motion.turns == 0 ? Vec3(Vec3::UnitZ()) : Vec3(motion.axis.normalized()),
-                                     motion.point,
-                                     motion.turns});
-    }
-    sheet.pinned.assign(held.begin(), held.end());
 }
 
 }  // namespace selvage

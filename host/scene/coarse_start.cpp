@@ -1,5 +1,7 @@
 #include "host/scene/coarse_start.hpp"
 
+#include "host/scene/scene_pins.hpp"
+
 namespace selvage {
 namespace {
 
@@ -25,6 +27,7 @@ std::string why_no_coarse_start(const Scene& scene, const SceneModel& model)
     if (integrator != IntegratorChoice::automatic && integrator != IntegratorChoice::implicit_euler &&
         integrator != IntegratorChoice::quasistatic)
         return "solver.integrator asks for another way to rest";
+    if (pins_by_index(scene)) return "vertices are held by their indices, which coarser meshes do not have";
     if (scene.moves()) return "held vertices or bodies move, and the cloth has to follow";
     if (!scene.has_garment() && !model.cloth_model.bodies.empty())
         return "there are bodies, and what the cloth meets first decides where it lies";

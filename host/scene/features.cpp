@@ -45,6 +45,32 @@ std::string damping(const FeatureCase& with, Params& params)
     return on;
 }
 
+// The law of air that moves past faces; its velocity follows while the phase runs.
+void set_air(const WindScene& wind, auto& term)
+{
+    term.normal = wind.density * wind.normal_coefficient;
+    term.tangential = wind.density * wind.tangential_coefficient;
+    term.velocity_x = wind.velocity.x();
+    term.velocity_y = wind.velocity.y();
+    term.velocity_z = wind.velocity.z();
+}
+
+std::string wind(const FeatureCase& with, Params& params)
+{
+    if (!with.scene.wind_blows()) return "wind.velocity and wind.gust are zero";
+    if (with.sewing) return "panels are sewn without wind";
+    set_air(with.scene.wind, params.wind);
+    return on;
+}
+
+std::string air_drag(const FeatureCase& with, Params& params)
+{
+    if (!with.scene.has_air()) return "wind.velocity and wind.gust are zero and wind.still_air is false";
+    if (with.sewing) return "panels are sewn without air";
+    set_air(with.scene.wind, params.air_drag);
+    return on;
+}
+
 // The membrane ----------------------------------------------
 
 std::string why_no_faces(const MembraneScene& membrane)
@@ -293,11 +319,6 @@ std::string coarse_start(const FeatureCase& with, Params&) { return why_no_coars
 
 std::string sew(const FeatureCase& with, Params&) { return with.model.sews ? on : "there are no seams"; }
 
-std::string wind(const FeatureCase& with, Params&)
-{
-    return with.scene.wind.velocity.isZero() ? "wind.velocity is zero" : on;
-}
-
 std::string body_motion(const FeatureCase& with, Params& params)
 {
     const std::vector<Body>& bodies = with.model.cloth_model.bodies;
@@ -311,7 +332,7 @@ std::string pin_motion(const FeatureCase& with, Params&)
     return with.model.cloth_model.cloth.pin_motions.empty() ? "there is no [[pins.motion]]" : on;
 }
 
-// Sewing is listed among the phases where there is any, and no term computes wind.
+// Sewing is listed among the phases where there is any.
 #define FEATURE(name) \
     {                 \
         #name, name   \
@@ -326,7 +347,7 @@ constexpr Feature features[] = {
     FEATURE(damping),       FEATURE(body_contact),    FEATURE(body_repulsion),     FEATURE(friction),
     FEATURE(cloth_contact), FEATURE(cloth_repulsion), FEATURE(cloth_friction),     FEATURE(velocity_rule),
     FEATURE(embree),        FEATURE(picture),         FEATURE(coarse_start),       UNLISTED(sew),
-    UNLISTED(wind),         FEATURE(body_motion),     FEATURE(pin_motion)};
+    FEATURE(wind),          FEATURE(air_drag),        FEATURE(body_motion),        FEATURE(pin_motion)};
 #undef FEATURE
 #undef UNLISTED
 

@@ -17,6 +17,11 @@ std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan
 {
     nlohmann::ordered_json json;
     json["scene"] = scene.name;
+    json["summary"] = scene.summary;
+    json["parameters"] = scene.parameters;
+    json["fabrics"] = nlohmann::json::array();
+    for (const auto& [name, fabric] : model.cloth_model.fabrics)
+        json["fabrics"].push_back({{"name", name}, {"source", fabric.source}});
     json["vertices"] = model.cloth_model.cloth.positions.size();
     json["triangles"] = model.cloth_model.cloth.faces.size();
     json["coarser_levels"] = model.cloth_model.coarser.size();
@@ -50,6 +55,10 @@ std::string plan_text(const Scene& scene, const SceneModel& model, const RunPlan
                     model.cloth_model.cloth.positions.size(), model.cloth_model.cloth.faces.size(),
                     model.cloth_model.cloth.panels.size(), model.cloth_model.cloth.seams.size(),
                     model.cloth_model.bodies.size(), model.cloth_model.coarser.size());
+    if (!scene.summary.empty()) text += scene.summary + "\n";
+    for (const auto& [name, fabric] : model.cloth_model.fabrics)
+        text += fmt::format("fabric {}{}\n", name, fabric.source.empty() ? "" : ": " + fabric.source);
+    if (!scene.parameters.empty()) text += fmt::format("commonly overridden: {}\n", fmt::join(scene.parameters, ", "));
     for (const PhasePlan& phase : plan.phases) {
         text += fmt::format("\nphase {}: state {:.1f} MiB, linear solver about {:.1f} MiB\n", word_of(phase.stage),
                             mebibytes(phase.field_bytes), mebibytes(phase.solver_bytes));

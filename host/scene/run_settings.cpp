@@ -74,6 +74,10 @@ PhaseOptions phase_options(const Scene& scene, const SceneModel& model, bool sew
     const bool levels =
         !model.cloth_model.coarser.empty() && scene.solver.preconditioner != PreconditionerChoice::block_jacobi;
     options.linear.preconditioner = levels ? Preconditioner::multigrid : Preconditioner::block_jacobi;
+    if (scene.has_air()) {
+        const WindScene& wind = scene.wind;
+        options.air.emplace(wind.velocity, wind.gust, wind.gust_time, std::uint32_t(wind.seed));
+    }
     return options;
 }
 

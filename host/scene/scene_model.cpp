@@ -16,6 +16,8 @@
 #include "host/model/prolongation.hpp"
 #include "host/parallel/trace.hpp"
 #include "host/scene/body_model.hpp"
+#include "host/scene/pin_meetings.hpp"
+#include "host/scene/scene_pins.hpp"
 #include "io/memory.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/pattern/pattern_json.hpp"
@@ -65,18 +67,12 @@ Cloth sheet_at(const Scene& scene, int index, int resolution)
     SheetScene sheet = scene.sheets[index];
     sheet.resolution = resolution;
     const std::string key = "sheet[" + std::to_string(index) + "]";
-    PinsScene pins = scene.pins;
-    if (resolution != scene.sheets[index].resolution) pins.vertices.clear();  // indices are those of the finest mesh
-    Cloth cloth;
     if (sheet.shape == SheetShape::mesh) {
         std::vector<Vec2> texture;
         const TriangleMesh mesh = read_obj(scene.resolve(sheet.mesh), sheet.unit, sheet.up_axis, &texture);
-        cloth = sheet_from_mesh(mesh, texture, sheet, pins, sheet.mesh, key);
-    } else {
-        cloth = make_sheet(sheet, pins, scene.file, key);
+        return sheet_from_mesh(mesh, texture, sheet, sheet.mesh, key);
     }
-    add_pin_motions(cloth, scene.pin_motions);
-    return cloth;
+    return make_sheet(sheet, scene.file, key);
 }
 
 // Returns how many vertices a scene may have.
@@ -157,8 +153,9 @@ Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
         const SheetScene& sheet = scene.sheets[i];
         if (level > 0 && sheet.shape == SheetShape::mesh) return {};
         const int resolution = int(std::ceil((sheet.resolution - 1) / factor)) + 1;
-        append_cloth(cloth, sheet_at(scene, i, std::max(resolution, 3)));
+        append_cloth(cloth, sheet_at(scene, i, std::max(resolution, level > 0 ? 3 : 2)));
     }
+    pin_cloth(cloth, scene, level == 0);
     return cloth;
 }
 
@@ -207,6 +204,8 @@ SceneModel build_scene_model(const Scene& scene)
                          "presses on cloth from less than that height only",
                          result.least_height, result.edge_length)});
     append_findings(result.findings, examine_scene(scene, result.cloth_model, result.edge_length));
+    if (std::optional<Finding> meeting = find_meeting_pins(result.cloth_model.cloth, scene))
+        result.findings.push_back(std::move(*meeting));
     if (!scene.has_garment()) {
         add_ripple(result.cloth_model.cloth);
         for (Cloth& coarser : result.cloth_model.coarser) add_ripple(coarser);

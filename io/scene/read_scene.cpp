@@ -6,6 +6,7 @@
 
 #include "io/file_text.hpp"
 #include "io/scene/fabric_table.hpp"
+#include "io/scene/key_rules.hpp"
 #include "io/scene/presets.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -40,6 +41,7 @@ SCENE_TABLES(SCENE_TABLE)
 SCENE_TABLE(sheet, SheetScene, SHEET_KEYS, "")
 SCENE_TABLE(body, BodyScene, BODY_KEYS, "")
 SCENE_TABLE(keyframe, KeyframeScene, KEYFRAME_KEYS, "")
+SCENE_TABLE(hold, PinHoldScene, PIN_HOLD_KEYS, "")
 SCENE_TABLE(motion, PinMotionScene, PIN_MOTION_KEYS, "")
 #undef SCENE_TABLE
 #undef READ_KEY
@@ -70,6 +72,7 @@ void read_repeated(TomlDocument& document, TableReader& outer, const char* name,
 
 void read_inner_tables(TomlDocument& document, TableReader& reader, PinsScene&, Scene& scene)
 {
+    read_repeated(document, reader, "hold", scene.pin_holds);
     read_repeated(document, reader, "motion", scene.pin_motions);
 }
 
@@ -130,12 +133,8 @@ Scene scene_of(TomlDocument document, const std::string& source)
     scene.name =
         valid_utf8(is_builtin(source) ? source.substr(builtin_prefix.size()) : fs::path(source).stem().string());
     scene.folder = is_builtin(source) ? std::string() : fs::path(source).parent_path().string();
-    std::ostringstream text;
-    text << document.root << '\n';
-    scene.text = text.str();
-
     TableReader top(document, &document.root, "");
-    read_top_keys(top, scene.summary);
+    scene.parameters = read_top_keys(top, scene.summary);
 #define SCENE_TABLE(name, type, keys, meaning) read_table(document, top, #name, scene.name, scene);
     SCENE_TABLES(SCENE_TABLE)
 #undef SCENE_TABLE
@@ -147,6 +146,14 @@ Scene scene_of(TomlDocument document, const std::string& source)
 
     check_scene(scene);
     resolve_fabrics(scene);
+    if (const std::vector<std::string> overruled = overruled_keys(scene); !overruled.empty()) {
+        for (const std::string& key : overruled) remove_key(document.root, key);
+        document.places.clear();
+        return scene_of(std::move(document), source);
+    }
+    std::ostringstream text;
+    text << document.root << '\n';
+    scene.text = text.str();
     return scene;
 }
 

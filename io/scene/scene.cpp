@@ -7,6 +7,8 @@
 
 namespace selvage {
 
+bool Scene::wind_blows() const { return !wind.velocity.isZero() || wind.gust > 0; }
+
 bool Scene::moves() const
 {
     return !pin_motions.empty() ||

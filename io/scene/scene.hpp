@@ -17,11 +17,12 @@ struct Until {
 
 /// A whole scene: what is simulated, how, and what is written. All in SI units, z up.
 struct Scene {
-    std::string name;     ///< File stem or built-in name.
-    std::string file;     ///< Path as given, or `builtin:NAME`.
-    std::string folder;   ///< Folder against which file names in the scene are resolved.
-    std::string text;     ///< The TOML text as run, overrides applied.
-    std::string summary;  ///< One sentence from the top-level key `summary`.
+    std::string name;                     ///< File stem or built-in name.
+    std::string file;                     ///< Path as given, or `builtin:NAME`.
+    std::string folder;                   ///< Folder against which file names in the scene are resolved.
+    std::string text;                     ///< The TOML text as run, overrides applied.
+    std::string summary;                  ///< One sentence from the top-level key `summary`.
+    std::vector<std::string> parameters;  ///< Keys that are commonly overridden.
 
 #define SCENE_TABLE(name, type, keys, meaning) type name;
     SCENE_TABLES(SCENE_TABLE)
@@ -29,12 +30,15 @@ struct Scene {
     std::map<std::string, std::string> panel_fabrics;  ///< [garment.fabrics]: panel name to fabric name.
     std::vector<SheetScene> sheets;                    ///< [[sheet]]
     std::vector<BodyScene> bodies;                     ///< [[body]]
+    std::vector<PinHoldScene> pin_holds;               ///< [[pins.hold]]
     std::vector<PinMotionScene> pin_motions;           ///< [[pins.motion]]
     std::map<std::string, Fabric> fabrics;             ///< Every fabric that the scene names, resolved and checked.
     std::map<std::string, InputPlace> places;          ///< Key path to its place in the file, for later messages.
 
     bool has_garment() const { return !garment.pattern.empty(); }
-    bool moves() const;  ///< A body or a pin has a motion of its own.
+    bool wind_blows() const;                                         ///< The air moves.
+    bool has_air() const { return wind_blows() || wind.still_air; }  ///< Air acts on the cloth.
+    bool moves() const;                                              ///< A body or a pin has a motion of its own.
     /// Returns solver.until.
     /// @throws InputError if it is neither the word nor a time
     Until until() const;

@@ -8,6 +8,7 @@
 
 #include "io/number_text.hpp"
 #include "io/scene/fabric_table.hpp"
+#include "io/scene/pin_checks.hpp"
 
 namespace selvage {
 namespace {
@@ -39,11 +40,14 @@ void check_garment(const Scene& scene)
     if (pattern.rfind("builtin:", 0) != 0) check_file(scene, "garment.pattern", pattern, kind);
 }
 
-void check_sheet(const Scene& scene, int index)
+void check_sheet(const Scene& scene, int index, std::set<std::string>& names)
 {
     const SheetScene& sheet = scene.sheets[std::size_t(index)];
     const std::string path = "sheet[" + std::to_string(index) + "].";
     if (sheet.shape == SheetShape::mesh) check_file(scene, path + "mesh", sheet.mesh, "an OBJ file, as shape is mesh");
+    if (!sheet.name.empty() && !names.insert(sheet.name).second)
+        throw InputError(scene.place(path + "name"), "`" + sheet.name + "` a second time",
+                         "a name of its own per sheet");
 }
 
 // What moves a body must fit its shape, and keyframes follow each other in time.
@@ -71,20 +75,6 @@ void check_motion(const Scene& scene, int index)
                              "none, or shape = \"mesh\" without a sequence");
         check_file(scene, at + "mesh", key.mesh, "an OBJ file of the pose");
     }
-}
-
-void check_pin_motion(const Scene& scene, int index)
-{
-    const PinMotionScene& motion = scene.pin_motions[std::size_t(index)];
-    const std::string path = "pins.motion[" + std::to_string(index) + "].";
-    if (!(motion.end > motion.start))
-        throw InputError(scene.place(path + "end"), number_text(motion.end) + " s",
-                         "a time above `start`, " + number_text(motion.start) + " s");
-    if (motion.turns != 0 && motion.axis.norm() == 0)
-        throw InputError(scene.place(path + "axis"), "[0, 0, 0]", "a direction, as the group turns");
-    if (scene.sheets.empty())
-        throw InputError(scene.place(path + "group"), "a scene without [[sheet]]",
-                         "a sheet whose vertices can be held");
 }
 
 // What moves feeds energy in, which cannot be told from what an unstable step does; and a rest at part of the weight
@@ -155,22 +145,6 @@ void check_until(const Scene& scene)
                          "\"equilibrium\", as solver.integrator is static and knows no time");
 }
 
-void check_pins(const Scene& scene)
-{
-    std::string_view list = scene.pins.vertices;
-    while (!list.empty()) {
-        const std::size_t comma = std::min(list.find(','), list.size());
-        std::string_view item = list.substr(0, comma);
-        while (!item.empty() && item.front() == ' ') item.remove_prefix(1);
-        while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
-        double vertex = -1;
-        if (!parse_number(item, vertex) || vertex < 0 || vertex > 2147483647.0 || vertex != std::floor(vertex))
-            throw InputError(scene.place("pins.vertices"), "`" + std::string(item) + "`",
-                             "vertex indices from 0, separated by commas");
-        list.remove_prefix(std::min(comma + 1, list.size()));
-    }
-}
-
 void resolve_fabric(Scene& scene, const std::string& name, const std::string& key)
 {
     if (scene.fabrics.count(name)) return;
@@ -189,10 +163,9 @@ void resolve_fabric(Scene& scene, const std::string& name, const std::string& ke
 void check_scene(const Scene& scene)
 {
     check_garment(scene);
-    for (int sheet = 0; sheet < int(scene.sheets.size()); ++sheet) check_sheet(scene, sheet);
-    std::set<std::string> names;
+    std::set<std::string> sheets, names;
+    for (int sheet = 0; sheet < int(scene.sheets.size()); ++sheet) check_sheet(scene, sheet, sheets);
     for (int body = 0; body < int(scene.bodies.size()); ++body) check_body(scene, body, names);
-    for (int motion = 0; motion < int(scene.pin_motions.size()); ++motion) check_pin_motion(scene, motion);
     check_until(scene);
     check_pins(scene);
     check_solver_of_motion(scene);

@@ -23,6 +23,7 @@
     VEC3(copy_offset, 0, 0, 1, "m", "way from one copy to the next")
 
 #define SHEET_KEYS(KEY, WORD, CHOICE, VEC3)                                                                           \
+    WORD(name, "", "name in messages, of its pins and in final.obj; none: sheet[0], sheet[1] ...")                    \
     CHOICE(shape, SheetShape, rectangle, "outline of the sheet")                                                      \
     WORD(mesh, "", "OBJ file of the sheet (shape = mesh); texture coordinates give its rest shape, in metres")        \
     KEY(double, width, 1, "m", 1e-3, 100, "extent along weft (rectangle)")                                            \
@@ -200,22 +201,43 @@
 
 #define PINS_KEYS(KEY, WORD, CHOICE, VEC3)                                                                             \
     CHOICE(sheet, PinGroup, none,                                                                                      \
-           "which vertices of a sheet are held; top is +warp, left is -weft, two_rows holds the first two columns at " \
-           "the left, center the vertex nearest to the middle")                                                        \
-    WORD(vertices, "", "indices of further held vertices, separated by commas")
+           "which vertices of each sheet are held; top is +warp, left is -weft, two_rows holds the first two columns " \
+           "at the left, center the vertex nearest to the middle; [[pins.hold]] holds those of one sheet or panel")    \
+    WORD(vertices, "", "indices of further held vertices of the one sheet there is, separated by commas")
 
-// [[pins.motion]]: a group of vertices that is held and moves; several are applied one after the other.
-#define PIN_MOTION_KEYS(KEY, WORD, CHOICE, VEC3)                                                               \
-    CHOICE(group, MovingPinGroup, corners,                                                                     \
-           "which vertices of a sheet move, as for pins.sheet; they are held from the start")                  \
-    KEY(double, start, 0, "s", 0, 1e6, "when the motion begins")                                               \
-    KEY(double, end, 1, "s", 0, 1e6, "when it ends; the vertices then stay held")                              \
-    VEC3(velocity, 0, 0, 0, "m/s", "of the group while it moves")                                              \
-    KEY(double, turns, 0, "1", -1000, 1000, "whole turns about the axis from start to end, counter-clockwise") \
-    VEC3(axis, 0, 0, 1, "1", "direction of the axis")                                                          \
+// [[pins.hold]]: vertices of one sheet or panel that are held in place.
+#define PIN_HOLD_KEYS(KEY, WORD, CHOICE, VEC3)                                                                      \
+    WORD(panel, "", "whose vertices: a sheet's name (sheet[0], sheet[1] ... without one), or a panel of a garment") \
+    CHOICE(group, PinGroup, none, "which of them are held, as for pins.sheet")                                      \
+    WORD(vertices, "", "indices of further held vertices, from 0 in each panel, separated by commas")
+
+// [[pins.motion]]: vertices that are held and move; several are applied one after the other.
+#define PIN_MOTION_KEYS(KEY, WORD, CHOICE, VEC3)                                                                    \
+    WORD(panel, "", "whose vertices, as for pins.hold; none: those of every sheet")                                 \
+    CHOICE(group, MovingPinGroup, automatic,                                                                        \
+           "which vertices move, as for pins.sheet; they are held from the start; automatic: corners, or only the " \
+           "listed vertices")                                                                                       \
+    WORD(vertices, "", "indices of further vertices that move, from 0 in each panel, separated by commas")          \
+    KEY(double, start, 0, "s", 0, 1e6, "when the motion begins")                                                    \
+    KEY(double, end, 1, "s", 0, 1e6, "when it ends; the vertices then stay held")                                   \
+    VEC3(velocity, 0, 0, 0, "m/s", "of the group while it moves")                                                   \
+    KEY(double, turns, 0, "1", -1000, 1000, "whole turns about the axis from start to end, counter-clockwise")      \
+    VEC3(axis, 0, 0, 1, "1", "direction of the axis")                                                               \
     VEC3(point, 0, 0, 0, "m", "a point of the axis")
 
-#define WIND_KEYS(KEY, WORD, CHOICE, VEC3) VEC3(velocity, 0, 0, 0, "m/s", "wind; zero: none")
+#define WIND_KEYS(KEY, WORD, CHOICE, VEC3)                                                                             \
+    VEC3(velocity, 0, 0, 0, "m/s", "mean velocity of the air")                                                         \
+    KEY(bool, still_air, false, "1", 0, 1,                                                                             \
+        "air resists the cloth's motion even where it does not move itself; moving air always does")                   \
+    KEY(double, density, 1.2, "kg/m^3", 1e-3, 2e3, "of the air")                                                       \
+    KEY(double, normal_coefficient, 1.2, "1", 0, 10,                                                                   \
+        "pressure along a face's normal over density/2 times the square of the air's velocity along it past the "      \
+        "face: drag, and lift on faces that are inclined")                                                             \
+    KEY(double, tangential_coefficient, 0.02, "1", 0, 10, "the same in the plane of the face, of both sides together") \
+    KEY(double, gust, 0, "m/s", 0, 100,                                                                                \
+        "standard deviation of each component of the gusts; not in runs to equilibrium")                               \
+    KEY(double, gust_time, 3, "s", 0.01, 1e4, "period of the slowest and strongest waves of the gusts")                \
+    KEY(int, seed, 1, "1", 0, 1e9, "of the gusts: the same seed gives the same gusts, whatever the step")
 
 #define OUTPUT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                     \
     CHOICE(precision, PositionGrid, fine_8um, "grid to which written positions are rounded")                     \
@@ -228,13 +250,13 @@
     KEY(bool, keep_checkpoint, false, "1", 0, 1, "keep the checkpoint at a normal end")
 
 // Tables that appear once: TABLE(name, struct, keys, meaning)
-#define SCENE_TABLES(TABLE)                                                            \
-    TABLE(garment, GarmentScene, GARMENT_KEYS, "a garment sewn from a pattern")        \
-    TABLE(solver, SolverScene, SOLVER_KEYS, "how and how long the motion is computed") \
-    TABLE(contact, ContactScene, CONTACT_KEYS, "contact between cloth and bodies")     \
-    TABLE(membrane, MembraneScene, MEMBRANE_KEYS, "in-plane elasticity")               \
-    TABLE(bending, BendingScene, BENDING_KEYS, "bending elasticity")                   \
-    TABLE(seams, SeamsScene, SEAMS_KEYS, "how panels are sewn together")               \
-    TABLE(pins, PinsScene, PINS_KEYS, "which vertices are held in place")              \
-    TABLE(wind, WindScene, WIND_KEYS, "moving air")                                    \
+#define SCENE_TABLES(TABLE)                                                                                     \
+    TABLE(garment, GarmentScene, GARMENT_KEYS, "a garment sewn from a pattern")                                 \
+    TABLE(solver, SolverScene, SOLVER_KEYS, "how and how long the motion is computed")                          \
+    TABLE(contact, ContactScene, CONTACT_KEYS, "contact between cloth and bodies")                              \
+    TABLE(membrane, MembraneScene, MEMBRANE_KEYS, "in-plane elasticity")                                        \
+    TABLE(bending, BendingScene, BENDING_KEYS, "bending elasticity")                                            \
+    TABLE(seams, SeamsScene, SEAMS_KEYS, "how panels are sewn together")                                        \
+    TABLE(pins, PinsScene, PINS_KEYS, "which vertices are held in place")                                       \
+    TABLE(wind, WindScene, WIND_KEYS, "air that the cloth moves in; none unless it blows or still_air is true") \
     TABLE(output, OutputScene, OUTPUT_KEYS, "what is written")

@@ -33,6 +33,9 @@ TomlDocument parse_toml(std::string_view text, const std::string& file);
 /// @throws InputError naming the override where it cannot be read or its element does not exist.
 void apply_override(TomlDocument& document, const std::string& override_text);
 
+/// Removes the key of a path such as `sheet[1].width` from a text that has it.
+void remove_key(toml::table& root, const std::string& path);
+
 /// Returns a TOML value as text for messages, shortened where it is long.
 std::string toml_value_text(const toml::node& node);
 

@@ -127,6 +127,11 @@ std::vector<TableText> tables()
          "where a body is at a time, under its [[body]]; it moves from one to the next and stays at the last",
          true,
          {KEYFRAME_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
+    list.push_back({"[[pins.hold]]",
+                    "pins.hold",
+                    "vertices of one sheet or panel that are held; may be repeated",
+                    true,
+                    {PIN_HOLD_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
     list.push_back({"[[pins.motion]]",
                     "pins.motion",
                     "held vertices that move; those that share vertices act one after the other on where these are",

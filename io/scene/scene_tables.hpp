@@ -34,6 +34,9 @@ struct BodyScene {
     std::vector<KeyframeScene> keyframes;  ///< [[body.keyframe]]
     bool moves() const { return !keyframes.empty() || !sequence.empty(); }
 };
+struct PinHoldScene {
+    PIN_HOLD_KEYS(SCENE_KEY, SCENE_WORD, SCENE_CHOICE, SCENE_VEC3)
+};
 struct PinMotionScene {
     PIN_MOTION_KEYS(SCENE_KEY, SCENE_WORD, SCENE_CHOICE, SCENE_VEC3)
 };

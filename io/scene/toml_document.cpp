@@ -172,6 +172,13 @@ void apply_override(TomlDocument& document, const std::string& override_text)
         merge(document, document.root, assignment, "", override_text);
 }
 
+void remove_key(toml::table& root, const std::string& path)
+{
+    const std::size_t last = path.rfind('.');
+    const toml::node_view<toml::node> outer = root.at_path(path.substr(0, last));
+    if (toml::table* table = outer.as_table()) table->erase(path.substr(last + 1));
+}
+
 std::string toml_value_text(const toml::node& node)
 {
     constexpr std::size_t limit = 60;

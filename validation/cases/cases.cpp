@@ -20,6 +20,7 @@ const std::vector<CaseGroup>& case_groups()
         {"buckling", "the load at which a clamped strip on edge turns over", check_buckling},
         {"integrators", "motion in time: frequencies, damping, orders and conserved quantities", check_integrators},
         {"friction", "Coulomb friction on an incline and around a cylinder", check_friction},
+        {"wind", "air on cloth: falling sheets, plates, taut sheets and curtains in wind", check_wind},
         {"cusick", "Cusick's drape test: coefficients, folds and the influence of the mesh", check_cusick},
         {"doubling", "Cusick's drape test under doubled resolution", check_doubling},
     };

@@ -35,6 +35,7 @@ void check_frequencies(CaseReport& report);
 void check_buckling(CaseReport& report);
 void check_integrators(CaseReport& report);
 void check_friction(CaseReport& report);
+void check_wind(CaseReport& report);
 void check_cusick(CaseReport& report);
 void check_doubling(CaseReport& report);
 

@@ -8,6 +8,7 @@
 #include "host/solver/state/springs.hpp"
 #include "host/solver/state/topology.hpp"
 #include "host/solver/terms/cloth_state.hpp"
+#include "host/solver/terms/face_air.hpp"
 #include "host/solver/terms/terms.hpp"
 
 namespace selvage {
@@ -184,6 +185,7 @@ inline State crumpled_state(const Params& params, unsigned seed = 7, bool touche
     }
     for (int h = 0; h < state.size.hinge_count; ++h) state.hinge_rest_sine[h] = 0.2 * uniform(random);
     for (int h = 0; h < state.size.hinge_count; ++h) state.hinge_anchor[h] = 0.5 * uniform(random);
+    if (!state.face_air.empty()) find_face_air(state);
     if (state.wanted[std::size_t(Field::pair_vertex)]) add_contacts(state, params, touches_body, random);
     return state;
 }

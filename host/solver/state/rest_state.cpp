@@ -84,6 +84,7 @@ void fill_faces(State& state, const Topology& topology, const Cloth& cloth, cons
         }
         if (state.face_vertex.empty()) continue;
         for (int k = 0; k < 3; ++k) state.face_vertex[k * fs + f] = topology.faces[f][k];
+        if (state.face_weights.empty()) continue;  // no membrane
         state.face_material[f] = fabrics.material[panel[f]];
         state.face_area[f] = area;
         const std::array<double, 4> weights = face_rest_weights(cloth, f);

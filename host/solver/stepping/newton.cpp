@@ -154,6 +154,7 @@ void Minimisation::guess(const std::vector<real>* expected)
     start_ = state_.pos;
     base_ = start_;
     if (system_.bodies_exert_forces()) system_.refresh_planes();
+    system_.refresh_air();
     const std::vector<real>*best = &start_, *reached = &start_;
     double lowest = value();
     for (const std::vector<real>* candidate : {expected, &objective_.target}) {
@@ -241,7 +242,10 @@ NewtonReport Minimisation::iterate(bool settles)
             report_.iterations % iterations_per_advance == 0 ? advance_boundary() : system_.boundary_waits();
         if (system_.bodies_exert_forces())
             system_.profile().timed("body_query", state_.size.vertex_count, 0, [&] { system_.refresh_planes(); });
-        if (settles) system_.settle();
+        if (settles)
+            system_.settle();
+        else
+            system_.refresh_air();
         evaluate_gradient();
         report_.residual = std::sqrt(dot(state_, downhill_, downhill_)) / system_.force_scale();
         report_.converged = !waits && report_.residual <= options_.tolerance;

@@ -43,6 +43,7 @@ Surroundings surroundings(const ClothModel& model, const PhaseOptions& options, 
     Surroundings around;
     around.contact_margin = options.contact_margin;
     around.pins.emplace(model.cloth, topology);
+    around.air = options.air;
     if (query && required_fields(options.params)[std::size_t(Field::contact_normal)])
         around.bodies = std::make_shared<ClothBodyContact>(*query, model.bodies, topology, model.cloth, model.fabrics,
                                                            body_gap(options.params), options.contact_margin,

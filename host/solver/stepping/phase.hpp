@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host/model/cloth_model.hpp"
@@ -17,6 +18,7 @@ struct PhaseOptions {
     bool float_solves = false;
     LinearOptions linear;
     double contact_margin = 0.03;  ///< See ClothBodyContact [m].
+    std::optional<Air> air;        ///< See Surroundings.
 };
 
 /// One phase of a run, sewing or draping: a cloth's particles as a system, and what solves its steps.

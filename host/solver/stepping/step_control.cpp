@@ -101,11 +101,11 @@ bool StepControl::passed_into_body(bool last)
     return passed;
 }
 
-// Nothing feeds the cloth but bodies and pins that move, whose work is not known: without them its energy falls, but
-// for the waves of a scheme that keeps it on average.
+// Nothing feeds the cloth but the air and bodies and pins that move, whose work is not known: without them its energy
+// falls, but for the waves of a scheme that keeps it on average.
 bool StepControl::keeps_energy(const Cover& cover)
 {
-    if (moves_ || !integrator_.may_gain_energy()) return true;
+    if (moves_ || system_.meets_air() || !integrator_.may_gain_energy()) return true;
     if (std::isnan(first_energy_)) {
         first_energy_ = cover.kinetic_before + cover.potential_before;
         lowest_potential_ = cover.potential_before;

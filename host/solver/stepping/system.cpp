@@ -6,6 +6,7 @@
 #include "host/parallel/launch.hpp"
 #include "host/solver/contact/anchors.hpp"
 #include "host/solver/state/vectors.hpp"
+#include "host/solver/terms/face_air.hpp"
 
 namespace selvage {
 namespace {
@@ -21,6 +22,13 @@ double weight_of(const State& state, const Params& params)
     return std::sqrt(sum_items(state.size.vertex_count, [&state, scale](int v) {
         return state.inv_mass[v] == 0 ? 0.0 : scale * scale * state.mass[v] * state.mass[v];
     }));
+}
+
+void set_air(auto& term, const Vec3& velocity)
+{
+    term.velocity_x = velocity.x();
+    term.velocity_y = velocity.y();
+    term.velocity_z = velocity.z();
 }
 
 std::vector<const VelocityFilter*> active_velocity_filters(const Params& params)
@@ -39,6 +47,7 @@ System::System(State state, const Params& params, Profile& profile, Surroundings
       velocity_filters_(active_velocity_filters(params)), force_scale_(weight_of(state_, params)),
       static_force_(state_.pos.size())
 {
+    refresh_air();
     if (!around_.cloth || !around_.bodies || around_.bodies->motion_end() == 0) return;
     around_.cloth->set_carry([this](State& moved, double part) {
         const double now = around_.bodies->time(), goal = clock_.end();
@@ -74,6 +83,7 @@ void System::find_contacts()
 {
     const TraceScope scope("look_around");
     refresh_planes();
+    refresh_air();
     if (around_.cloth) around_.cloth->begin(state_);
 }
 
@@ -89,6 +99,18 @@ void System::hold_by_friction()
 void System::refresh_planes()
 {
     if (around_.bodies) around_.bodies->update(state_);
+}
+
+void System::refresh_air()
+{
+    if (!meets_air()) return;
+    if (around_.air) {
+        const Vec3 velocity = around_.air->velocity(clock_.end());
+        set_air(params_.wind, velocity);
+        set_air(params_.air_drag, velocity);
+    }
+    profile_.timed("face_air", state_.size.face_count, std::int64_t(face_air_bytes(state_)),
+                   [&] { find_face_air(state_); });
 }
 
 void System::refresh_pairs()
@@ -112,6 +134,7 @@ void System::limit_by_pairs(std::vector<real>& move, bool uniform)
 void System::settle()
 {
     settle_anchors(state_, params_);
+    refresh_air();
     if (around_.cloth) around_.cloth->settle(state_, params_);
 }
 

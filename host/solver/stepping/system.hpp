@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/model/air.hpp"
 #include "host/solver/contact/cloth_body_contact.hpp"
 #include "host/solver/contact/cloth_contact.hpp"
 #include "host/solver/contact/pin_paths.hpp"
@@ -19,6 +20,8 @@ struct Surroundings {
     std::unique_ptr<ClothContact> cloth = nullptr;
     std::optional<PinPaths> pins = std::nullopt;
     double contact_margin = 0.03;  ///< See ClothBodyContact [m].
+    /// What moves the air; without it the air moves as the parameters of its terms say.
+    std::optional<Air> air = std::nullopt;
 };
 
 /// The mechanical system that integrators move: the cloth's state with the forces, contacts, velocity filters and
@@ -58,6 +61,7 @@ public:
     /// Writes d2R/dv2 to state.vertex_stiffness [kg/s].
     void evaluate_drag() { terms_.evaluate_drag(); }
     bool dissipates() const { return terms_.dissipates(); }
+    bool meets_air() const { return !state_.face_air.empty(); }
     /// Of all conservative terms on what is awake [J]; counted in the profile.
     double awake_energy() { return terms_.energy(); }
     double dissipation() const { return terms_.dissipation(); }  ///< R of what is awake [W].
@@ -72,7 +76,7 @@ public:
     double residual_of(const std::vector<real>& static_force) const;   ///< The same of a force that is known already.
     double force_scale() const { return force_scale_; }                ///< What forces are measured against [N].
     double kinetic_energy() const { return terms_.kinetic_energy(); }  ///< [J]
-    double potential_energy() const { return terms_.potential_energy(); }             ///< Of the whole cloth [J].
+    double potential_energy() const { return terms_.potential_energy(); }             ///< See ActiveTerms [J].
     double energy_of(EnergyFamily family) const { return terms_.energy_of(family); }  ///< Of the whole cloth [J].
     Energies energies() const;
 
@@ -84,6 +88,8 @@ public:
     void hold_by_friction();
     /// Finds the contact planes of the bodies at state.pos.
     void refresh_planes();
+    /// Finds how the air at the end of the clock's step streams past the faces at state.pos.
+    void refresh_air();
     /// Lists the pairs of cloth in contact at state.pos. Moves that limit_by_pairs has passed have theirs listed.
     void refresh_pairs();
     /// Forgets what contact searches of earlier steps have found, so that a step depends on the state alone.
@@ -92,6 +98,7 @@ public:
     /// in contact on it; see ClothContact::filter_step. Without contact of cloth nothing happens.
     void limit_by_pairs(std::vector<real>& move, bool uniform);
     /// Ends a step for friction and hysteresis: what slips lets its anchors follow, limits follow the normal forces.
+    /// The air finds the cloth where it is.
     void settle();
     bool has_velocity_filters() const { return !velocity_filters_.empty(); }
     /// Ends a step of dt [s] with the velocity filters that are active. @returns true if one may have changed the state

@@ -81,7 +81,9 @@ void ActiveTerms::conservative_force(std::vector<real>& force) const
 double ActiveTerms::potential_energy() const
 {
     double total = 0;
-    for (const Term* term : conservative_) total += term->energy_over(state_, params_, all_items_of(state_, term->per));
+    for (const Term* term : conservative_)
+        if (term->family != EnergyFamily::air)
+            total += term->energy_over(state_, params_, all_items_of(state_, term->per));
     return total;
 }
 

@@ -35,7 +35,7 @@ public:
     /// Writes the net force of the conservative terms on what is awake [N]; state.force stays as it is.
     /// @param force  planes like pos
     void conservative_force(std::vector<real>& force) const;
-    double potential_energy() const;              ///< Of the whole cloth, outside the profile [J].
+    double potential_energy() const;  ///< Of the whole cloth without what the air does, outside the profile [J].
     double energy_of(EnergyFamily family) const;  ///< Likewise, of the terms of one family [J].
     double kinetic_energy() const;                ///< [J]
 

@@ -2,8 +2,9 @@
 
 namespace selvage {
 
-/// What the energies of a cloth are summed by; kernels/terms.h gives each term its family. Terms of damping have none.
-enum class EnergyFamily { external, membrane, bending, seam, damping, contact, friction };
+/// What the energies of a cloth are summed by; kernels/terms.h gives each term its family. Terms of damping have none,
+/// and moving air is no potential: what its terms sum up serves single steps only.
+enum class EnergyFamily { external, membrane, bending, seam, damping, air, contact, friction };
 
 /// Energies of a whole cloth by family [J].
 struct Energies {

@@ -31,6 +31,12 @@ inline bool meets_bodies(const Params& p)
 /// True if the cloth meets itself, under whichever law of contact.
 inline bool meets_itself(const Params& p) { return p.cloth_contact.stiffness > 0 || p.cloth_repulsion.stiffness > 0; }
 
+/// True if air acts on the cloth, moving or still.
+inline bool meets_air(const Params& p)
+{
+    return p.wind.normal > 0 || p.wind.tangential > 0 || p.air_drag.normal > 0 || p.air_drag.tangential > 0;
+}
+
 /// Distance from a body at which contact sets in under the law in use [m]; the barrier's if there is none.
 inline double body_gap(const Params& p)
 {

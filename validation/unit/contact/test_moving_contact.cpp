@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/garment/pins.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/model/body.hpp"
 #include "host/model/cloth_model.hpp"
@@ -23,8 +24,11 @@ ClothModel sheet_model(int resolution, const std::vector<PinMotionScene>& motion
     sheet.resolution = resolution;
     sheet.center = Vec3::Zero();
     ClothModel model;
-    model.cloth = make_sheet(sheet, PinsScene{}, "", "sheet[0]");
-    add_pin_motions(model.cloth, motions);
+    model.cloth = make_sheet(sheet, "", "sheet[0]");
+    for (const PinMotionScene& motion : motions) {
+        const PinGroup group = find_word<PinGroup>(word_of(motion.group)).value();
+        move_vertices(model.cloth, chosen_vertices(model.cloth, {"", group, ""}, {}, {}), motion);
+    }
     model.fabrics["cotton"] = fabric_preset("cotton");
     return model;
 }

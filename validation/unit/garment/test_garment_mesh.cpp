@@ -8,6 +8,7 @@
 
 #include "host/garment/assemble.hpp"
 #include "host/garment/outline.hpp"
+#include "host/garment/pins.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/mesh/panel_mesh.hpp"
 #include "host/model/prolongation.hpp"
@@ -411,11 +412,14 @@ TEST_CASE("appended cloths keep their panels, seams and pins")
     const Cloth garment = assemble(pattern, 0.05);
     SheetScene sheet;
     sheet.resolution = 3;
-    PinsScene pins;
-    pins.sheet = PinGroup::top_corners;
-    Cloth both = make_sheet(sheet, pins, "scene.toml", "sheet[0]");
+    const auto held_sheet = [&](const char* key) {
+        Cloth cloth = make_sheet(sheet, "scene.toml", key);
+        hold_vertices(cloth, {6, 8});
+        return cloth;
+    };
+    Cloth both = held_sheet("sheet[0]");
     append_cloth(both, garment);
-    append_cloth(both, make_sheet(sheet, pins, "scene.toml", "sheet[1]"));
+    append_cloth(both, held_sheet("sheet[1]"));
     const int shift = 9, last = shift + int(garment.positions.size());
     CHECK(both.pinned == std::vector<int>{6, 8, last + 6, last + 8});
     CHECK(both.panels.size() == 4);

@@ -32,7 +32,7 @@ TEST_CASE("sheets have the vertices, size and place that their scene says")
     sheet.rotation = Vec3(90, 0, 0);
     for (const MeshFamily family : {MeshFamily::alternating, MeshFamily::same_diagonal, MeshFamily::irregular}) {
         sheet.mesh_family = family;
-        const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+        const Cloth cloth = make_sheet(sheet, "scene.toml", "sheet[0]");
         CHECK(cloth.positions.size() == 45);
         CHECK(cloth.faces.size() == 64);
         CHECK(cloth.panels[0].rest_area == Approx(0.32));
@@ -44,11 +44,11 @@ TEST_CASE("sheets have the vertices, size and place that their scene says")
     sheet.shape = SheetShape::disc;
     sheet.radius = 0.15;
     sheet.resolution = 31;
-    const Cloth disc = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+    const Cloth disc = make_sheet(sheet, "scene.toml", "sheet[0]");
     CHECK(disc.panels[0].rest_area == Approx(std::numbers::pi * 0.15 * 0.15).epsilon(0.005));
     for (const Face& face : disc.faces) CHECK(face_area(disc, face) > 0.1 * 0.01 * 0.01);
     sheet.shape = SheetShape::mesh;
-    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), contains_text("sheet[0].shape"));
+    CHECK_THROWS_WITH(make_sheet(sheet, "scene.toml", "sheet[0]"), contains_text("sheet[0].shape"));
 }
 
 TEST_CASE("every mesh family fills its rectangle or disc with faces that look up")
@@ -60,7 +60,7 @@ TEST_CASE("every mesh family fills its rectangle or disc with faces that look up
     for (const MeshFamily family : rectangle_families()) {
         INFO(word_of(family));
         sheet.mesh_family = family;
-        const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+        const Cloth cloth = make_sheet(sheet, "scene.toml", "sheet[0]");
         CHECK(cloth.panels[0].rest_area == Approx(0.32));
         CHECK(cloth.panels[0].rest_boundary == Approx(2.4));
         for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
@@ -71,35 +71,12 @@ TEST_CASE("every mesh family fills its rectangle or disc with faces that look up
     for (const MeshFamily family : disc_families()) {
         INFO(word_of(family));
         sheet.mesh_family = family;
-        const Cloth cloth = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+        const Cloth cloth = make_sheet(sheet, "scene.toml", "sheet[0]");
         CHECK(cloth.panels[0].rest_area == Approx(std::numbers::pi * 0.15 * 0.15).epsilon(0.01));
         for (const Face& face : cloth.faces) CHECK(face_area(cloth, face) > 0);
     }
     sheet.mesh_family = MeshFamily::cross;
-    CHECK_THROWS_WITH(make_sheet(sheet, {}, "scene.toml", "sheet[0]"), contains_text("sheet[0].mesh_family"));
-}
-
-TEST_CASE("pins hold the vertices that their word names")
-{
-    SheetScene sheet;
-    sheet.resolution = 4;  // rows 0-3, 4-7, 8-11, 12-15 from the bottom
-    const auto pinned = [&](PinGroup group, const std::string& list = "") {
-        PinsScene pins;
-        pins.sheet = group;
-        pins.vertices = list;
-        return make_sheet(sheet, pins, "scene.toml", "sheet[0]").pinned;
-    };
-    CHECK(pinned(PinGroup::none).empty());
-    CHECK(pinned(PinGroup::corners) == std::vector<int>{0, 3, 12, 15});
-    CHECK(pinned(PinGroup::top_corners) == std::vector<int>{12, 15});
-    CHECK(pinned(PinGroup::top_edge) == std::vector<int>{12, 13, 14, 15});
-    CHECK(pinned(PinGroup::left_edge) == std::vector<int>{0, 4, 8, 12});
-    CHECK(pinned(PinGroup::two_rows) == std::vector<int>{0, 1, 4, 5, 8, 9, 12, 13});
-    CHECK(pinned(PinGroup::top_corners, "7, 2,15") == std::vector<int>{2, 7, 12, 15});
-    CHECK_THROWS_WITH(pinned(PinGroup::none, "16"), contains_text("pins.vertices") && contains_text("from 0 to 15"));
-    CHECK_THROWS_WITH(pinned(PinGroup::none, "1,x"), contains_text("pins.vertices"));
-    sheet.mesh_family = MeshFamily::irregular;
-    CHECK(pinned(PinGroup::left_edge) == std::vector<int>{0, 4, 8, 12});
+    CHECK_THROWS_WITH(make_sheet(sheet, "scene.toml", "sheet[0]"), contains_text("sheet[0].mesh_family"));
 }
 
 TEST_CASE("a sheet from a mesh takes its rest shape from texture coordinates, or its own plane if it is flat")
@@ -109,19 +86,19 @@ TEST_CASE("a sheet from a mesh takes its rest shape from texture coordinates, or
     mesh.faces = {{0, 1, 2}, {0, 2, 3}};
     SheetScene sheet;
     sheet.center = Vec3(5, 5, 5);
-    const Cloth flat = sheet_from_mesh(mesh, {}, sheet, {}, "scene.toml", "sheet[1]");
+    const Cloth flat = sheet_from_mesh(mesh, {}, sheet, "scene.toml", "sheet[1]");
     CHECK(flat.panels[0].rest_area == Approx(2));
     CHECK((flat.positions[0] - Vec3(4.5, 5, 4)).norm() < 1e-12);
     for (const Face& face : flat.faces) CHECK(face_area(flat, face) == Approx(1));
 
     mesh.vertices[2].y() = 0.3;
-    CHECK_THROWS_WITH(sheet_from_mesh(mesh, {}, sheet, {}, "scene.toml", "sheet[1]"), contains_text("sheet[1].mesh"));
+    CHECK_THROWS_WITH(sheet_from_mesh(mesh, {}, sheet, "scene.toml", "sheet[1]"), contains_text("sheet[1].mesh"));
     const std::vector<Vec2> rest{{0, 0}, {-1, 0}, {-1, 2}, {0, 2}};  // seen from behind
-    const Cloth textured = sheet_from_mesh(mesh, rest, sheet, {}, "scene.toml", "sheet[1]");
+    const Cloth textured = sheet_from_mesh(mesh, rest, sheet, "scene.toml", "sheet[1]");
     CHECK(textured.panels[0].rest_area == Approx(2));
     CHECK(textured.panels[0].rest_boundary == Approx(6));
     const std::vector<Vec2> folded{{0, 0}, {1, 0}, {1, 2}, {2, 0}};
-    CHECK_THROWS_WITH(sheet_from_mesh(mesh, folded, sheet, {}, "scene.toml", "sheet[1]"), contains_text("turned over"));
+    CHECK_THROWS_WITH(sheet_from_mesh(mesh, folded, sheet, "scene.toml", "sheet[1]"), contains_text("turned over"));
 }
 
 TEST_CASE("a prolongation between sheets of different resolution reproduces linear functions")
@@ -129,9 +106,9 @@ TEST_CASE("a prolongation between sheets of different resolution reproduces line
     SheetScene sheet;
     sheet.resolution = 5;
     sheet.mesh_family = MeshFamily::irregular;
-    const Cloth coarse = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+    const Cloth coarse = make_sheet(sheet, "scene.toml", "sheet[0]");
     sheet.resolution = 18;
-    const Cloth fine = make_sheet(sheet, {}, "scene.toml", "sheet[0]");
+    const Cloth fine = make_sheet(sheet, "scene.toml", "sheet[0]");
     std::vector<double> values;
     for (const Vec2& point : coarse.panel_coordinates) values.push_back(point.x() + 2 * point.y());
     const Prolongation prolongation = make_prolongation(coarse, fine);

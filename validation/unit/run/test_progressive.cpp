@@ -1,3 +1,4 @@
+#include "host/garment/pins.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/model/prolongation.hpp"
 #include "host/run/progressive.hpp"
@@ -12,9 +13,9 @@ Cloth sheet_of(int resolution)
     SheetScene sheet;
     sheet.resolution = resolution;
     sheet.mesh_family = MeshFamily::same_diagonal;
-    PinsScene pins;
-    pins.sheet = PinGroup::top_corners;
-    return make_sheet(sheet, pins, "test", "sheet[0]");
+    Cloth cloth = make_sheet(sheet, "test", "sheet[0]");
+    hold_vertices(cloth, chosen_vertices(cloth, {"", PinGroup::top_corners, ""}, {}, {}));
+    return cloth;
 }
 
 std::array<double, 2> stretch_range(const Cloth& cloth, const std::vector<Vec3>& positions)

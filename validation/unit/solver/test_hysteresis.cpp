@@ -48,7 +48,7 @@ Cloth strip(MeshFamily family)
     sheet.mesh_family = family;
     sheet.fabric = "test";
     sheet.center = Vec3::Zero();
-    return make_sheet(sheet, PinsScene{}, "", "sheet[0]");
+    return make_sheet(sheet, "", "sheet[0]");
 }
 
 // A strip that is bent to cylinders along x (axis 0, weft) or y (axis 1, warp). Its only force is that of hysteresis.

@@ -28,7 +28,7 @@ Cloth rectangle(MeshFamily family)
     sheet.resolution = 13;
     sheet.mesh_family = family;
     sheet.fabric = "test";
-    return make_sheet(sheet, PinsScene{}, "", "sheet[0]");
+    return make_sheet(sheet, "", "sheet[0]");
 }
 
 // Returns the positions of the sheet bent to a cylinder along x (axis 0) or y (axis 1) of its start positions.

@@ -46,6 +46,7 @@ void ExplicitScheme::accelerate(std::vector<real>& a)
     // A state that has burst is no place to look for bodies; the caller finds out.
     if (phase_.contact() && is_finite(s)) phase_.contact()->update(s);
     if (is_finite(s)) phase_.system().refresh_pairs();
+    phase_.system().refresh_air();
     phase_.system().evaluate_forces(true);
     weigh(vertex_planes(s.size, a), s.inv_mass, vertex_planes(s.size, std::as_const(s.force)));
 }

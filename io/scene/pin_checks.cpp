@@ -1,0 +1,77 @@
+#include "io/scene/pin_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "io/number_text.hpp"
+
+namespace selvage {
+namespace {
+
+void check_vertex_list(const Scene& scene, const std::string& key, std::string_view list)
+{
+    while (!list.empty()) {
+        const std::size_t comma = std::min(list.find(','), list.size());
+        std::string_view item = list.substr(0, comma);
+        while (!item.empty() && item.front() == ' ') item.remove_prefix(1);
+        while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
+        double vertex = -1;
+        if (!parse_number(item, vertex) || vertex < 0 || vertex > 2147483647.0 || vertex != std::floor(vertex))
+            throw InputError(scene.place(key), "`" + std::string(item) + "`",
+                             "vertex indices from 0, separated by commas");
+        list.remove_prefix(std::min(comma + 1, list.size()));
+    }
+}
+
+// Pins that name no panel mean the sheets, and indices one sheet.
+void check_whose(const Scene& scene, const std::string& key, bool by_index, const std::string& how)
+{
+    const std::size_t sheets = scene.sheets.size();
+    if (sheets == 0)
+        throw InputError(scene.place(key), "a scene without [[sheet]]",
+                         "a sheet whose vertices can be held, or " + how + " of the garment");
+    if (by_index && sheets > 1)
+        throw InputError(scene.place(key), "indices in a scene of " + std::to_string(sheets) + " sheets",
+                         how + ", as \"sheet[0]\", since each sheet counts its own vertices");
+}
+
+void check_motion(const Scene& scene, int index)
+{
+    const PinMotionScene& motion = scene.pin_motions[std::size_t(index)];
+    const std::string path = "pins.motion[" + std::to_string(index) + "].";
+    if (!(motion.end > motion.start))
+        throw InputError(scene.place(path + "end"), number_text(motion.end) + " s",
+                         "a time above `start`, " + number_text(motion.start) + " s");
+    if (motion.turns != 0 && motion.axis.norm() == 0)
+        throw InputError(scene.place(path + "axis"), "[0, 0, 0]", "a direction, as the group turns");
+    check_vertex_list(scene, path + "vertices", motion.vertices);
+    if (motion.panel.empty())
+        check_whose(scene, path + (motion.vertices.empty() ? "group" : "vertices"), !motion.vertices.empty(),
+                    "`panel`, the name");
+}
+
+void check_hold(const Scene& scene, int index)
+{
+    const PinHoldScene& hold = scene.pin_holds[std::size_t(index)];
+    const std::string path = "pins.hold[" + std::to_string(index) + "]";
+    if (hold.panel.empty())
+        throw InputError(scene.place(path), "no `panel`", "the name of a sheet or panel, as \"sheet[0]\"");
+    if (hold.group == PinGroup::none && hold.vertices.empty())
+        throw InputError(scene.place(path), "neither `group` nor `vertices`", "what of `" + hold.panel + "` is held");
+    check_vertex_list(scene, path + ".vertices", hold.vertices);
+}
+
+}  // namespace
+
+void check_pins(const Scene& scene)
+{
+    check_vertex_list(scene, "pins.vertices", scene.pins.vertices);
+    const std::string how = "[[pins.hold]] with `panel`, the name";
+    if (scene.pins.sheet != PinGroup::none) check_whose(scene, "pins.sheet", false, how);
+    if (!scene.pins.vertices.empty()) check_whose(scene, "pins.vertices", true, how);
+    for (int hold = 0; hold < int(scene.pin_holds.size()); ++hold) check_hold(scene, hold);
+    for (int motion = 0; motion < int(scene.pin_motions.size()); ++motion) check_motion(scene, motion);
+}
+
+}  // namespace selvage
