@@ -4,9 +4,6 @@
 #include "host/run/measure.hpp"
 
 namespace selvage {
-namespace {
-
-// For every cloth vertex, the first one of its particle.
 std::vector<int> representatives(const Topology& topology)
 {
     std::vector<int> first(topology.particle_count, -1), representative(topology.particle_of.size());
@@ -17,8 +14,6 @@ std::vector<int> representatives(const Topology& topology)
     }
     return representative;
 }
-
-}  // namespace
 
 std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology)
 {

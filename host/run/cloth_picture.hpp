@@ -7,6 +7,9 @@
 
 namespace selvage {
 
+/// For every cloth vertex, the first one of its particle: sewn vertices have the same one.
+std::vector<int> representatives(const Topology& topology);
+
 /// The outward faces of a cloth with one vertex standing for all that are sewn to each other, so that faces of two
 /// panels share the vertices of their seam.
 std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology);

@@ -145,12 +145,16 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
     next_frame_ = frame_time_after(scalars.time);
 }
 
-void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const std::vector<TriangleMesh>& bodies)
+void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const Topology& topology,
+                               const std::vector<TriangleMesh>& bodies)
 {
     const Cloth& cloth = model_.cloth_model.cloth;
     std::vector<std::vector<Face>> faces(cloth.panels.size());
     const std::vector<Face> outward = outward_faces(cloth);
     std::vector<ObjObject> objects;
+    std::vector<int> repeated = representatives(topology);
+    for (int v = 0; v < int(repeated.size()); ++v)
+        if (repeated[v] == v) repeated[v] = -1;
     for (int p = 0; p < int(cloth.panels.size()); ++p) {
         const ClothPanel& panel = cloth.panels[p];
         for (int f = panel.first_face; f < panel.first_face + panel.face_count; ++f) {
@@ -161,7 +165,7 @@ void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const std::ve
         const auto range = [&](const auto& all) {
             return std::span(all).subspan(panel.first_vertex, panel.vertex_count);
         };
-        objects.push_back({panel.name, range(positions), faces[p], range(cloth.panel_coordinates)});
+        objects.push_back({panel.name, range(positions), faces[p], range(cloth.panel_coordinates), range(repeated)});
     }
     write_obj(folder_ + "/final.obj", objects);
     if (bodies.empty()) return;
@@ -210,7 +214,7 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
     const std::vector<Vec3> positions = phase.positions();
     std::vector<TriangleMesh> bodies;
     for (const Body& body : model_.cloth_model.bodies) bodies.push_back(body_mesh_at(body, time));
-    write_meshes(positions, bodies);
+    write_meshes(positions, phase.topology(), bodies);
     draw(positions, phase.topology(), bodies);
     const Cloth& cloth = model_.cloth_model.cloth;
     RunSummary s;

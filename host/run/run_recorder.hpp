@@ -59,7 +59,8 @@ public:
 
 private:
     double frame_time_after(double time) const;
-    void write_meshes(const std::vector<Vec3>& positions, const std::vector<TriangleMesh>& bodies);
+    void write_meshes(const std::vector<Vec3>& positions, const Topology& topology,
+                      const std::vector<TriangleMesh>& bodies);
     void measure_written(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
                          const std::vector<TriangleMesh>& bodies) const;
     void draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);

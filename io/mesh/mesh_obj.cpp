@@ -249,6 +249,15 @@ void append_numbers(std::string& text, const char* keyword, const double* values
     text += '\n';
 }
 
+// A name that cannot end its line or, by a backslash, go on in the next one.
+std::string one_line(std::string name)
+{
+    for (char& c : name)
+        if ((c >= 0 && c < ' ') || c == '\x7f') c = '_';
+    if (name.ends_with('\\')) name.back() = '_';
+    return name;
+}
+
 }  // namespace
 
 std::vector<std::string> sequence_files(const std::string& pattern, const InputPlace& place)
@@ -298,17 +307,21 @@ int obj_face_line(const std::string& path, int face)
 void write_obj(const std::string& path, std::span<const ObjObject> objects)
 {
     std::string text;
-    int offset = 1;
+    std::vector<int> numbers;  // of all positions so far, from 1
+    int offset = 1, written = 0;
     for (const ObjObject& object : objects) {
-        text += "o " + object.name + "\n";
-        for (const Vec3& position : object.positions) append_numbers(text, "v", position.data(), 3);
+        text += "o " + one_line(object.name) + "\n";
+        for (std::size_t k = 0; k < object.positions.size(); ++k) {
+            const int repeated = object.repeated.empty() ? -1 : object.repeated[k];
+            if (repeated < 0) append_numbers(text, "v", object.positions[k].data(), 3);
+            numbers.push_back(repeated < 0 ? ++written : numbers[std::size_t(repeated)]);
+        }
         for (const Vec2& point : object.texture) append_numbers(text, "vt", point.data(), 2);
         for (const Face& face : object.faces) {
             text += 'f';
             for (const int corner : face) {
-                const std::string index = std::to_string(corner + offset);
-                text += ' ' + index;
-                if (!object.texture.empty()) text += '/' + index;
+                text += ' ' + std::to_string(numbers[std::size_t(corner + offset - 1)]);
+                if (!object.texture.empty()) text += '/' + std::to_string(corner + offset);
             }
             text += '\n';
         }

@@ -33,9 +33,13 @@ struct ObjObject {
     std::span<const Vec3> positions;  ///< [m]
     std::span<const Face> faces;
     std::span<const Vec2> texture = {};  ///< Empty, or one per position.
+    /// Empty, or for each position the one that it repeats, counted over all objects so far; -1: none. A position that
+    /// repeats another one is not written again, so that the objects of a sewn garment stay connected.
+    std::span<const int> repeated = {};
 };
 
-/// Writes an OBJ file under a temporary name and moves it into place.
+/// Writes an OBJ file; control characters in names become underscores. It is written under a temporary name and moves
+/// it into place.
 /// @throws InputError if the folder cannot be written
 void write_obj(const std::string& path, std::span<const ObjObject> objects);
 

@@ -19,6 +19,7 @@ Json contents(const std::string& path)
     const bool empty = run.frame_count() == 0;
     Json json;
     json["file"] = path;
+    json["kind"] = "run";
     json["version"] = layout.version;
     json["frames"] = run.frame_count();
     json["points"] = layout.point_count;
@@ -41,7 +42,7 @@ std::string joined(const Json& names)
 
 }  // namespace
 
-std::string describe_file(const std::string& path, bool json)
+std::string describe_run(const std::string& path, bool json)
 {
     const Json held = contents(path);
     if (json) return held.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

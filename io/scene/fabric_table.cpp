@@ -195,6 +195,25 @@ Fabric read_fabric_table(TableReader& reader, const std::string& name)
     return fabric;
 }
 
+std::vector<Fabric> read_fabrics(const std::string& text, const std::string& file)
+{
+    TomlDocument document = parse_toml(text, file);
+    std::vector<Fabric> fabrics;
+    if (document.root.contains("areal_density") || document.root.contains("base")) {
+        TableReader reader(document, &document.root, "");
+        fabrics.push_back(read_fabric_table(reader, ""));
+    }
+    toml::table* tables = document.root.size() == 1 ? document.root["fabric"].as_table() : nullptr;
+    if (!tables) return fabrics;
+    for (auto&& [key, node] : *tables) {
+        const std::string name(key.str());
+        if (!node.is_table()) return {};
+        TableReader reader(document, node.as_table(), "fabric." + name);
+        fabrics.push_back(read_fabric_table(reader, name));
+    }
+    return fabrics;
+}
+
 void check_fabric(const Fabric& fabric, const InputPlace& place)
 {
 #define CHECK_KEY(type, name, initial, unit, low, high, meaning) \

@@ -19,6 +19,12 @@ Fabric fabric_preset(const std::string& name);
 /// @throws InputError naming the key, the value and what was expected.
 Fabric read_fabric_table(TableReader& reader, const std::string& name);
 
+/// Reads the fabrics of a TOML text that holds nothing else: [fabric.NAME] tables, or one fabric's keys as the built-in
+/// ones are written.
+/// @return none if the text is something else, such as a scene
+/// @throws InputError as read_fabric_table, or if the text is no TOML
+std::vector<Fabric> read_fabrics(const std::string& text, const std::string& file);
+
 /// Checks ranges and that the membrane resists every strain.
 /// @throws InputError at the fabric's place
 void check_fabric(const Fabric& fabric, const InputPlace& place);

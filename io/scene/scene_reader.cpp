@@ -107,6 +107,9 @@ void TableReader::read(const char* name, std::string& target)
         return;
     }
     if (!text) refuse(name, *node, "a text in quotes");
+    // Names go into files that are read by lines, and into messages.
+    if (std::ranges::any_of(text->get(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }))
+        refuse(name, *node, "a text of one line, without control characters");
     target = text->get();
 }
 

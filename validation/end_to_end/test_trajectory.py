@@ -228,8 +228,17 @@ class Garment(unittest.TestCase):
         names, vertices, texture, faces = read_obj(self.path("final.obj"))
         self.assertEqual(names, PANELS)
         self.assertEqual(len(faces), self.summary["triangles"])
-        np.testing.assert_allclose(vertices, self.group["positions"][-1], atol=GRID)
+        triangles = self.group["triangles"][()]
+        self.assertEqual(len(vertices), len(np.unique(triangles)))      # sewn points once
+        np.testing.assert_allclose(vertices[faces], self.group["positions"][-1][triangles], atol=GRID)
         np.testing.assert_allclose(texture, self.file["VTKHDF/PointData/panel_coordinates"][()], atol=1e-5)
+        with open(self.path("final.obj")) as file:
+            corners = [[int(w.split("/")[1]) - 1 for w in line.split()[1:]] for line in file if line[0] == "f"]
+        np.testing.assert_allclose(texture[corners], self.group["rest_corners"][()], atol=1e-5)
+        edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+        uses = np.unique(edges, axis=0, return_counts=True)[1]
+        self.assertEqual(uses.max(), 2)
+        self.assertLess(np.count_nonzero(uses == 1), 250)               # neck, hem and cuffs; seams are closed
 
     def test_body_obj_is_a_closed_body_of_a_person(self):
         names, vertices, _, faces = read_obj(self.path("body.obj"))

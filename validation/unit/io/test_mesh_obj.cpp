@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "io/errors.hpp"
+#include "io/file_text.hpp"
 #include "io/mesh/body_mesh.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "validation/unit/catch.hpp"
@@ -120,6 +121,25 @@ TEST_CASE("a written OBJ file reads back with the same objects")
     CHECK(mesh.faces[3] == Face{4, 6, 7});
     CHECK((mesh.vertices[6] - square[2]).norm() < 1e-9);
     CHECK(texture[5] == flat[1]);
+}
+
+TEST_CASE("objects that are sewn to each other share vertices and keep their own texture coordinates")
+{
+    const ScratchFolder folder;
+    const std::vector<Vec3> left{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, right{{1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
+    const std::vector<Face> face{{0, 1, 2}};
+    const std::vector<Vec2> flat{{0, 0}, {1, 0}, {1, 1}}, flat_right{{5, 0}, {6, 0}, {5, 1}};
+    const std::vector<int> none{-1, -1, -1}, repeated{1, -1, 2};
+    const std::vector<ObjObject> objects{{"left", left, face, flat, none},
+                                         {"right\nv 0 0 0\\", right, face, flat_right, repeated}};
+    write_obj(folder.path("sewn.obj"), objects);
+    const std::string text = read_file_text(folder.path("sewn.obj"), "an OBJ file");
+    CHECK(text.find("o right_v 0 0 0_\n") != std::string::npos);
+    CHECK(text.find("f 1/1 2/2 3/3\n") != std::string::npos);
+    CHECK(text.find("f 2/4 4/5 3/6\n") != std::string::npos);
+    const TriangleMesh mesh = read_obj(folder.path("sewn.obj"), LengthUnit::m, Axis::z);
+    CHECK(mesh.vertices.size() == 4);
+    CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {1, 3, 2}});
 }
 
 TEST_CASE("a closed body passes and its volume is positive")

@@ -108,7 +108,7 @@ TEST_CASE("a trajectory is read back as it was written")
     CHECK(run.layout().grid == PositionGrid::lossless);
     CHECK(run.scalars(3).iterations == 7);
     CHECK_THROWS_AS(run.read_frame(4), InputError);
-    CHECK(nlohmann::json::parse(describe_file(path, true))["frames"] == 4);
+    CHECK(nlohmann::json::parse(describe_run(path, true))["frames"] == 4);
 }
 
 TEST_CASE("a run file has the layout that VTK and h5py users rely on")
