@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 
 #include "io/run/summary.hpp"
@@ -11,7 +12,9 @@ struct RunOptions {
     std::string folder = "out";  ///< Where the results go; made if missing.
     bool resume = false;         ///< Go on from the folder's checkpoint.
     bool quiet = false;          ///< No progress on stderr.
-    bool profile = false;        ///< Print what every phase cost, and leave trace.json.
+    /// Called after each checkpoint; false stops the run there. For tests of what a resumed run does.
+    std::function<bool()> after_checkpoint = {};
+    bool profile = false;  ///< Print what every phase cost, and leave trace.json.
 };
 
 struct RunOutcome {

@@ -1,4 +1,5 @@
 #include "bench/harness/scene_runner.hpp"
+#include "host/run/phase_memory.hpp"
 #include "host/run/restart.hpp"
 #include "host/solver/state/snapshot.hpp"
 #include "io/errors.hpp"
@@ -29,10 +30,13 @@ RunProgress some_progress()
 {
     RunProgress p;
     p.stage = RunStage::drape;
-    p.sewing = {0.2, 3, 0.4, 0.5, 0.6, 0.7};
-    p.pressing = {8, 0.9};
-    p.draping = {1.2, 13, 1.4, 1.5, 16, 0};
+    p.sewing = {0.2, 3, 0.4, 0.5, 0.6, {0.7}};
+    p.pressing = {8, {0.9}};
+    p.draping = {1.2, 13, 1.4, {1.5, 1, 1.6, 1.7, 1.8}, 16, 0};
     p.counters = {17, 18, 19, 2.1, {{"drape", 2.2}, {"sew", 2.3}}, {"bdf2", "implicit_euler"}};
+    p.frame = {26, true};
+    p.stability = {2.7, 2.8, 2.9};
+    p.ended = true;
     p.wall_seconds = 2.4;
     p.frames = 25;
     return p;
@@ -50,8 +54,7 @@ TEST_CASE("every kept field, the time and all that the integrator remembers come
     save_run(path, run.runner.model(), some_progress(), run.phase, *run.integrator);
     other.fill_kept(-7);
     const Checkpoint checkpoint = read_checkpoint(path);
-    load_particles(checkpoint, path, other.phase);
-    load_history(checkpoint, path, *other.integrator);
+    load_phase(checkpoint, path, other.phase, *other.integrator);
 
     CHECK(other.phase.system().clock().time == 0.1);
     std::vector<std::vector<real>> fields;
@@ -97,8 +100,7 @@ TEST_CASE("a checkpoint that lacks any of its entries is refused by that entry's
         std::string message;
         try {
             load_progress(part, path, run.runner.model());
-            load_particles(part, path, run.phase);
-            load_history(part, path, *run.integrator);
+            load_phase(part, path, run.phase, *run.integrator);
         } catch (const InputError& error) {
             message = error.what();
         }
