@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include "host/run/ended_run.hpp"
 #include "host/run/interrupt.hpp"
 #include "host/run/measure.hpp"
 #include "host/run/phase_memory.hpp"
@@ -22,6 +23,7 @@ DrapeRun::DrapeRun(const Scene& scene, const RunOptions& options)
 {
     check_memory(scene, plan_);
     settings_ = make_run_settings(scene, model_);
+    identity_ = identity_of(settings_, model_);
     if (meets_bodies(settings_.cloth.draping.params))
         query_.emplace(model_.cloth_model.bodies, cloth_reach(model_.cloth_model.cloth));
 }
@@ -45,6 +47,7 @@ void DrapeRun::start_phase(RunStage stage, const std::vector<Vec3>& positions, c
 void DrapeRun::begin()
 {
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, false);
+    if (!options_.notice.empty()) recorder_->say(options_.notice);
     progress_.counters.phases["assemble"] = elapsed();
     start_afresh(plan_.coarse_start ? RunStage::coarse : plan_.phases.front().stage);
 }
@@ -60,18 +63,20 @@ void DrapeRun::start_afresh(RunStage stage)
     if (settings_.output.frames && shows) recorder_->write_frame(*phase_, {}, elapsed(), true);
 }
 
-// Nothing in the folder is touched before the checkpoint has turned out to be the right one.
-void DrapeRun::resume()
+// Nothing in the folder is touched before the checkpoint has turned out to be the right one. Returns false if there is
+// nothing left to do.
+bool DrapeRun::resume()
 {
     const Checkpoint checkpoint = read_checkpoint(checkpoint_path());
-    progress_ = load_progress(checkpoint, checkpoint_path(), model_);
-    progress_.ended = progress_.ended && settings_.until.equilibrium;
+    progress_ = load_progress(checkpoint, checkpoint_path(), identity_);
+    if (progress_.ended && has_ended(options_.folder)) return false;
     wall_before_ = progress_.wall_seconds;
     start_phase(progress_.stage, model_.cloth_model.cloth.positions, {});
     load_phase(checkpoint, checkpoint_path(), *phase_, *integrator_);
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, true);
     recorder_->open_phase(progress_.stage, phase_->topology(), progress_.frames);
     recorder_->set_frame_progress(progress_.frame);
+    return true;
 }
 
 void DrapeRun::save()
@@ -83,7 +88,7 @@ void DrapeRun::save()
     progress.wall_seconds = elapsed();
     progress.frames = recorder_->frame_count();
     progress.frame = recorder_->frame_progress();
-    save_run(checkpoint_path(), model_, progress, *phase_, *integrator_);
+    save_run(checkpoint_path(), identity_, progress, *phase_, *integrator_);
     last_checkpoint_ = elapsed();
     stopped_ = options_.after_checkpoint && !options_.after_checkpoint();
 }
@@ -304,7 +309,10 @@ std::string DrapeRun::why_not_done() const
 
 RunOutcome DrapeRun::execute()
 {
-    options_.resume ? resume() : begin();
+    if (!options_.resume)
+        begin();
+    else if (!resume())
+        return nothing_left(options_.folder);
     try {
         const PhaseEnd end = progress_.ended ? PhaseEnd::reached : run_phases();
         progress_.ended = settings_.until.equilibrium && end == PhaseEnd::reached;
@@ -324,13 +332,19 @@ RunOutcome DrapeRun::execute()
 
 RunOutcome run_drape(const Scene& scene, const RunOptions& options)
 {
+    RunOptions used = options;
+    if (options.resume && !has_checkpoint(options.folder)) {
+        if (is_done(scene, options.folder)) return nothing_left(options.folder);
+        used.resume = false;
+        used.notice = "no checkpoint in " + options.folder + " to go on from: the run starts from the beginning";
+    }
     std::optional<tbb::global_control> limit;
     if (scene.solver.threads > 0)
         limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(scene.solver.threads));
     std::optional<Trace> trace;
     if (options.profile) trace.emplace();
     const TraceUse use(trace ? &*trace : nullptr);
-    const RunOutcome outcome = DrapeRun(scene, options).execute();
+    const RunOutcome outcome = DrapeRun(scene, used).execute();
     if (trace) conclude_profile(*trace, options.folder);
     return outcome;
 }

@@ -27,7 +27,7 @@ private:
     void start_phase(RunStage stage, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
     void begin();
     void start_afresh(RunStage stage);
-    void resume();
+    bool resume();
     void save();
     PhaseEnd run_phases();
     PhaseEnd run_sewing();
@@ -53,6 +53,7 @@ private:
     SceneModel model_;
     RunPlan plan_;
     RunSettings settings_;
+    RunIdentity identity_;
     Profile profile_;
     std::optional<BodyQuery> query_;
     std::unique_ptr<Phase> phase_;

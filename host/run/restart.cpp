@@ -1,38 +1,57 @@
 #include "host/run/restart.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/model/body.hpp"
 #include "host/run/checkpoint_values.hpp"
 #include "host/run/phase_memory.hpp"
+#include "host/scene/scene_values.hpp"
+#include "io/content_hash.hpp"
 
 namespace selvage {
 namespace {
 
-// FNV-1a, over the bits of what a model consists of.
-class Fingerprint {
-public:
-    template <class T>
-    void add(const T& value)
-    {
-        unsigned char bytes[sizeof(T)];
-        std::memcpy(bytes, &value, sizeof(T));
-        for (unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211ull;
-    }
-    void add(const Vec3& x)
-    {
-        for (int c = 0; c < 3; ++c) add(x[c]);
-    }
-    std::string text() const { return fmt::format("{:016x}", hash_); }
+// Adds the bits of numbers, or of vectors of them.
+template <class T>
+void add(ContentHash& hash, const std::vector<T>& items)
+{
+    hash.add({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)});
+}
 
-private:
-    unsigned long long hash_ = 14695981039346656037ull;
-};
+// Cloth, seams and bodies; the scene says everything else.
+std::string hash_of_meshes(const ClothModel& model)
+{
+    ContentHash hash;
+    add(hash, model.cloth.positions);
+    add(hash, model.cloth.panel_coordinates);
+    add(hash, model.cloth.faces);
+    add(hash, model.cloth.seam_pairs);
+    for (const Body& body : model.bodies) add(hash, body.mesh.vertices);
+    return hash.text();
+}
+
+// One line for each key; words of a scene hold no line breaks but in long texts, which are of no account here.
+std::string lines_of(const std::map<std::string, std::string>& values)
+{
+    std::string lines;
+    for (const auto& [key, value] : values) lines += key + "=" + std::string(value, 0, value.find('\n')) + "\n";
+    return lines;
+}
+
+std::map<std::string, std::string> values_of(const std::string& lines)
+{
+    std::map<std::string, std::string> values;
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t middle = std::min(line.find('='), line.size());
+        values[line.substr(0, middle)] = line.substr(std::min(middle + 1, line.size()));
+    }
+    return values;
+}
 
 // Names every number of what a run remembers beside the particles. The bindings name all members of a struct, so a new
 // one does not compile until it is given a name here.
@@ -129,14 +148,15 @@ void save_coarse(const CheckpointSaver& save, const CoarseStart& coarse)
     save("coarse.positions", coarse.positions);
 }
 
-CoarseStart coarse_of(const CheckpointLoader& load, const ClothModel& model)
+// @param goes_on  there are coarser cloths to drape yet
+CoarseStart coarse_of(const CheckpointLoader& load, const std::vector<std::size_t>& carried_to, bool goes_on)
 {
     CoarseStart coarse;
     const std::vector<int>& counts = load.integers("coarse.counts");
     const std::size_t done = counts.size() / coarse_counts;
-    if (counts.size() != done * coarse_counts || done > model.coarser.size())
+    if (counts.size() != done * coarse_counts || (goes_on && done > carried_to.size()))
         load.refuse("coarse.counts", fmt::format("{} numbers", counts.size()),
-                    fmt::format("{} for each of at most {} coarser cloths", coarse_counts, model.coarser.size()));
+                    fmt::format("{} for each of at most {} coarser cloths", coarse_counts, carried_to.size()));
     const std::vector<double>& measures = load.reals("coarse.measures", coarse_measures * done);
     for (std::size_t k = 0; k < done; ++k) {
         const int* count = counts.data() + coarse_counts * k;
@@ -151,56 +171,30 @@ CoarseStart coarse_of(const CheckpointLoader& load, const ClothModel& model)
         coarse.stages.push_back(stage);
     }
     coarse.positions = load.vectors("coarse.positions");
-    const std::size_t left = model.coarser.size() - done;  // the shape is one of the next finer cloth
-    const Cloth& next = left == 0 ? model.cloth : model.coarser[left - 1];
-    if (!coarse.positions.empty() && coarse.positions.size() != next.positions.size())
+    const std::size_t expected = goes_on && done > 0 ? carried_to[done - 1] : 0;
+    if (!coarse.positions.empty() && coarse.positions.size() != expected)
         load.refuse("coarse.positions", fmt::format("{} positions", coarse.positions.size()),
-                    fmt::format("{}", next.positions.size()));
+                    fmt::format("{}", expected));
     return coarse;
 }
 
 }  // namespace
 
-std::string model_fingerprint(const SceneModel& model)
+RunIdentity identity_of(const RunSettings& settings, const SceneModel& model)
 {
-    Fingerprint print;
-    const Cloth& cloth = model.cloth_model.cloth;
-    for (const Vec3& x : cloth.positions) print.add(x);
-    for (const Vec2& u : cloth.panel_coordinates) {
-        print.add(u.x());
-        print.add(u.y());
-    }
-    for (const Face& f : cloth.faces) print.add(f);
-    for (const auto& pair : cloth.seam_pairs) print.add(pair);
-    for (const auto& [name, f] : model.cloth_model.fabrics)
-        for (double value :
-             {f.areal_density, f.stretch_weft, f.stretch_warp, f.stretch_coupling, f.shear, f.bending_weft,
-              f.bending_warp, f.hysteresis_weft, f.hysteresis_warp, f.friction, f.damping})
-            print.add(value);
-    for (const auto& [name, f] : model.cloth_model.fabrics)
-        for (const StressCurve& curve : membrane_curves(f))
-            for (const CurveRange& range : curve) print.add(range);
-    for (const Body& body : model.cloth_model.bodies) {
-        for (const Vec3& x : body.mesh.vertices) print.add(x);
-        // Where it is at a few times tells motions apart.
-        for (int k = 1; body.motion && k <= 8; ++k)
-            for (const Vec3& x : body_mesh_at(body, body.motion->end() * k / 8).vertices) print.add(x);
-    }
-    for (const PinMotion& motion : cloth.pin_motions) {
-        print.add(motion.velocity);
-        print.add(motion.axis);
-        print.add(motion.point);
-        for (double value : {motion.start, motion.end, motion.turns}) print.add(value);
-        for (int vertex : motion.vertices) print.add(vertex);
-    }
-    return print.text();
+    const ClothModel& cloths = model.cloth_model;
+    RunIdentity identity{settings.values, hash_of_meshes(cloths), {}};
+    for (std::size_t level = settings.coarser.size(); level-- > 0;)
+        identity.carried_to.push_back((level == 0 ? cloths.cloth : cloths.coarser[level - 1]).positions.size());
+    return identity;
 }
 
-void save_run(const std::string& path, const SceneModel& model, const RunProgress& p, const Phase& phase,
+void save_run(const std::string& path, const RunIdentity& identity, const RunProgress& p, const Phase& phase,
               Integrator& integrator)
 {
     Checkpoint checkpoint;
-    checkpoint.words = {{"model", model_fingerprint(model)},
+    checkpoint.words = {{"scene", lines_of(identity.scene)},
+                        {"meshes", identity.meshes},
                         {"phase", text_of(p.stage)},
                         {"integrators", fmt::format("{}", fmt::join(p.counters.integrators, " "))}};
     const CheckpointSaver save{checkpoint};
@@ -214,20 +208,25 @@ void save_run(const std::string& path, const SceneModel& model, const RunProgres
     write_checkpoint(path, checkpoint);
 }
 
-RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path, const SceneModel& model)
+RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path, const RunIdentity& identity)
 {
     const CheckpointLoader load{checkpoint, path};
-    if (load.word("model") != model_fingerprint(model))
-        load.refuse("model", "the checkpoint of another cloth, fabric or body",
+    auto now = values_of(lines_of(identity.scene)), before = values_of(load.word("scene"));
+    const std::string differing = differing_values(now, before);
+    if (!differing.empty())
+        load.refuse("scene", "the checkpoint of another scene (" + differing + ")",
                     "one left by this scene; run without --resume to start anew");
+    if (load.word("meshes") != identity.meshes)
+        load.refuse("meshes", "the checkpoint of other meshes of this scene", "one left by this version of selvage");
     RunProgress p;
     const std::string word = load.word("phase");
     const std::optional<RunStage> stage = find_word<RunStage>(word);
     if (!stage) load.refuse("phase", "`" + word + "`", "sew, press, coarse or drape");
     p.stage = *stage;
     visit_progress(p, load);
+    p.ended = p.ended && now["solver.until"] == before["solver.until"];
     p.stability = stability_of(load);
-    p.coarse = coarse_of(load, model.cloth_model);
+    p.coarse = coarse_of(load, identity.carried_to, p.stage == RunStage::coarse);
     if (p.frames < 0) load.refuse("frames", fmt::format("{}", p.frames), "a count");
     std::istringstream integrators(load.word("integrators"));
     for (std::string name; integrators >> name;) p.counters.integrators.push_back(name);
