@@ -315,7 +315,7 @@ RunOutcome DrapeRun::execute()
         return nothing_left(options_.folder);
     try {
         const PhaseEnd end = progress_.ended ? PhaseEnd::reached : run_phases();
-        progress_.ended = settings_.until.equilibrium && end == PhaseEnd::reached;
+        progress_.ended = end == PhaseEnd::reached;
         if (end == PhaseEnd::stopped) return conclude_stopped();
         if (end == PhaseEnd::time_limit) return conclude(RunStatus::time_limit, why_not_done());
         const bool timed = !settings_.until.equilibrium;

@@ -244,7 +244,7 @@ solver = {{until = 0.2}}
         result = run(self.path("out"), [scene_file], "--set", "solver.step=0.01", *more)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("solver.step is `0.01`, was `0.02`", result.stderr)
-        result = run(self.path("out"), [scene_file], "--threads", "2", "--set", "output.frames=false", *more)
+        result = run(self.path("out"), [scene_file], "--set", "output.frames=false", *more)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(summary(self.path("out"))["simulated_s"], 0.3)
 

@@ -31,9 +31,17 @@ solver = {until = 0.4}
 constexpr const char* squeezed_sheet = R"(
 sheet = [{width = 0.4, height = 0.4, resolution = 9, center = [0, 0, 1], rotation = [90, 0, 0]}]
 pins.motion = [{group = "top_corners", start = 0, end = 0.3, velocity = [0.1, 0, 0.05]}]
-body = [{shape = "sphere", radius = 0.1, center = [0.02, -0.16, 0.95], keyframe = [{time = 0.25, translation = [0, 0.07, 0]}]},
-        {shape = "sphere", radius = 0.1, center = [-0.02, 0.16, 0.95], keyframe = [{time = 0.25, translation = [0, -0.07, 0]}]}]
 solver = {until = 0.35}
+[[body]]
+shape = "sphere"
+radius = 0.1
+center = [0.02, -0.16, 0.95]
+keyframe = [{time = 0.25, translation = [0, 0.07, 0]}]
+[[body]]
+shape = "sphere"
+radius = 0.1
+center = [-0.02, 0.16, 0.95]
+keyframe = [{time = 0.25, translation = [0, -0.07, 0]}]
 )";
 
 const std::vector<std::string> small_garment = {"garment.resolution=0.07", "solver.max_time=0.5"};
@@ -88,9 +96,8 @@ void check_equal_frames(const std::string& resumed, const std::string& whole)
 }
 
 // Runs a scene with a checkpoint after each step, and resumes it from every `stride`-th of them: the next checkpoints
-// must be equal, and from every `to_end`-th of those the end and all frames as well.
-void check_resumed_runs(const std::string& file, const std::vector<std::string>& overrides, int stride = 1,
-                        int to_end = 8)
+// must be equal, and from the one in the middle all to the end, and all frames.
+void check_resumed_runs(const std::string& file, const std::vector<std::string>& overrides, int stride)
 {
     constexpr int ahead = 2;
     const ScratchFolder scratch;
@@ -107,7 +114,7 @@ void check_resumed_runs(const std::string& file, const std::vector<std::string>&
     REQUIRE(steps.size() > 10);
     for (int k = 0; k < int(steps.size()); k += stride) {
         INFO("resumed from checkpoint " << k << " of " << steps.size() << ", stage " << steps[k].words.at("phase"));
-        const bool whole = k / stride % to_end == 0;
+        const bool whole = k / stride == int(steps.size()) / stride / 2;
         RunOptions part{.folder = copy_of(k), .resume = true, .quiet = true};
         int at = k;
         part.after_checkpoint = [&] {
@@ -133,11 +140,11 @@ TEST_CASE("cloth that touches itself goes on bit for bit from the checkpoint of 
         INFO(info.name);
         const std::string integrator = "solver.integrator=" + std::string(info.name);
         if (info.order == 0)
-            check_resumed_runs(scene, {integrator, "solver.until=equilibrium"}, 5, 4);
+            check_resumed_runs(scene, {integrator, "solver.until=equilibrium"}, 6);
         else if (info.is_explicit)
-            check_resumed_runs(scene, {integrator, "solver.step=0.002", "solver.until=0.1"}, 9, 3);
+            check_resumed_runs(scene, {integrator, "solver.step=0.004", "solver.until=0.08"}, 5);
         else
-            check_resumed_runs(scene, {integrator, "solver.step=0.02", "solver.until=0.3"}, 3, 4);
+            check_resumed_runs(scene, {integrator, "solver.step=0.02", "solver.until=0.3"}, 4);
     }
 }
 
@@ -145,28 +152,27 @@ TEST_CASE("so it does on its way to rest, asleep in places and between static at
 {
     const ScratchFolder scratch;
     const std::string scene = scratch.write("sheets.toml", falling_sheets);
-    check_resumed_runs(scene, {"solver.until=equilibrium"}, 3);
-    check_resumed_runs(scene, {"solver.until=equilibrium", "solver.integrator=bdf2"}, 3);
-    check_resumed_runs(scene, {"solver.until=0.2", "solver.adaptive=true", "solver.integrator=bdf2"}, 4);
+    check_resumed_runs(scene, {"solver.until=equilibrium"}, 11);
+    check_resumed_runs(scene, {"solver.until=equilibrium", "solver.integrator=bdf2"}, 11);
+    check_resumed_runs(scene, {"solver.until=0.1", "solver.adaptive=true", "solver.integrator=bdf2"}, 9);
 }
 
 TEST_CASE("so does cloth between bodies and pins that move")
 {
     const ScratchFolder scratch;
     const std::string scene = scratch.write("squeeze.toml", squeezed_sheet);
-    for (const char* integrator : {"implicit_euler", "bdf2", "implicit_midpoint"}) {
+    for (const char* integrator : {"implicit_euler", "bdf2"}) {
         INFO(integrator);
-        check_resumed_runs(scene, {fmt::format("solver.integrator={}", integrator)}, 2);
+        check_resumed_runs(scene, {fmt::format("solver.integrator={}", integrator)}, 5);
     }
-    check_resumed_runs(scene, {"solver.integrator=velocity_verlet", "solver.step=0.002", "solver.until=0.1"}, 7);
 }
 
 TEST_CASE("so does a garment while it is sewn, pressed and draped")
 {
-    check_resumed_runs("builtin:vest", small_garment, 7, 4);
+    check_resumed_runs("builtin:vest", small_garment, 19);
 }
 
 TEST_CASE("so does a sheet that is draped on coarser meshes first")
 {
-    check_resumed_runs("builtin:hanging", {"sheet.resolution=33"}, 1, 1);
+    check_resumed_runs("builtin:hanging", {"sheet.resolution=33"}, 2);
 }
