@@ -39,6 +39,16 @@ struct TreeBodies {
     int version = 0;                           ///< Changes whenever the corners do.
 };
 
+/// What a tree takes from one call of cover to the next.
+struct TreeMemory {
+    bool valid = false;                     ///< The candidates may be complete for the next move as well.
+    std::vector<Vec3> start, end;           ///< Of each particle in the searched move, in the moving frame [m].
+    std::vector<float> slack;               ///< Of each particle [m].
+    std::vector<int> skipped;               ///< Subtrees that the search skipped as flat.
+    std::vector<PairCandidate> candidates;  ///< In their order.
+    std::vector<PairCandidate> asleep;      ///< Those all of whose corners sleep.
+};
+
 struct TreeCounts {
     long long searches = 0;      ///< Traversals of the tree.
     long long reused = 0;        ///< Calls in which the last candidates were proved to be still complete.
@@ -84,7 +94,13 @@ public:
 
     const std::vector<PairCandidate>& candidates() const { return candidates_; }
     const TreeCounts& counts() const { return counts_; }
+    std::size_t body_corner_count() const { return start_.size() - std::size_t(particles_); }
     void forget() { valid_ = false; }  ///< Makes the next call of cover search.
+    /// For checkpoints. @param bodies  where they are now: what was searched with them elsewhere is not valid
+    TreeMemory memory(const TreeBodies& bodies) const;
+    /// Takes over a memory. The last call of cover must have been for the present place, with these bodies.
+    /// @throws std::invalid_argument if it is of another surface
+    void set_memory(TreeMemory memory);
     std::size_t bytes() const;
 
 private:

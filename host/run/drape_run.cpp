@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include "host/run/ended_run.hpp"
 #include "host/run/interrupt.hpp"
 #include "host/run/measure.hpp"
+#include "host/run/phase_memory.hpp"
 #include "host/run/run_profile.hpp"
 #include "io/errors.hpp"
 #include "io/scene/scene.hpp"
@@ -20,6 +23,7 @@ DrapeRun::DrapeRun(const Scene& scene, const RunOptions& options)
 {
     check_memory(scene, plan_);
     settings_ = make_run_settings(scene, model_);
+    identity_ = identity_of(settings_, model_);
     if (meets_bodies(settings_.cloth.draping.params))
         query_.emplace(model_.cloth_model.bodies, cloth_reach(model_.cloth_model.cloth));
 }
@@ -43,6 +47,7 @@ void DrapeRun::start_phase(RunStage stage, const std::vector<Vec3>& positions, c
 void DrapeRun::begin()
 {
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, false);
+    if (!options_.notice.empty()) recorder_->say(options_.notice);
     progress_.counters.phases["assemble"] = elapsed();
     start_afresh(plan_.coarse_start ? RunStage::coarse : plan_.phases.front().stage);
 }
@@ -58,35 +63,57 @@ void DrapeRun::start_afresh(RunStage stage)
     if (settings_.output.frames && shows) recorder_->write_frame(*phase_, {}, elapsed(), true);
 }
 
-// Nothing in the folder is touched before the checkpoint has turned out to be the right one.
-void DrapeRun::resume()
+// Nothing in the folder is touched before the checkpoint has turned out to be the right one. Returns false if there is
+// nothing left to do.
+bool DrapeRun::resume()
 {
     const Checkpoint checkpoint = read_checkpoint(checkpoint_path());
-    progress_ = load_progress(checkpoint, checkpoint_path(), model_);
+    progress_ = load_progress(checkpoint, checkpoint_path(), identity_);
+    if (progress_.ended && has_ended(options_.folder)) return false;
     wall_before_ = progress_.wall_seconds;
     start_phase(progress_.stage, model_.cloth_model.cloth.positions, {});
-    load_particles(checkpoint, checkpoint_path(), *phase_);
-    load_history(checkpoint, checkpoint_path(), *integrator_);
+    load_phase(checkpoint, checkpoint_path(), *phase_, *integrator_);
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, true);
     recorder_->open_phase(progress_.stage, phase_->topology(), progress_.frames);
+    recorder_->set_frame_progress(progress_.frame);
+    return true;
 }
 
 void DrapeRun::save()
 {
     const TraceScope scope("checkpoint");
-    progress_.wall_seconds = elapsed();
-    progress_.frames = recorder_->frame_count();
-    save_run(checkpoint_path(), model_, progress_, *phase_, *integrator_);
+    // In the middle of a coarse stage there is nothing to go on from: it is repeated from its start.
+    RunProgress progress = progress_.stage == RunStage::coarse ? repeats_from_ : progress_;
+    progress.counters.phases = progress_.counters.phases;
+    progress.wall_seconds = elapsed();
+    progress.frames = recorder_->frame_count();
+    progress.frame = recorder_->frame_progress();
+    save_run(checkpoint_path(), identity_, progress, *phase_, *integrator_);
     last_checkpoint_ = elapsed();
+    stopped_ = options_.after_checkpoint && !options_.after_checkpoint();
+}
+
+// An attempt that is broken off is repeated when the run is resumed: it then counts once.
+void DrapeRun::hear_attempt(bool undone)
+{
+    if (progress_.stage == RunStage::coarse) return;  // its stage is repeated
+    if (undone) {
+        progress_.counters = repeats_from_.counters;
+        recorder_->set_frame_progress(repeats_from_.frame);
+        return;
+    }
+    repeats_from_.counters = progress_.counters;
+    repeats_from_.frame = recorder_->frame_progress();
 }
 
 void DrapeRun::note_stability(const StepEvent& event)
 {
     if (std::isinf(event.stable_step)) return;
-    const bool first = std::isnan(stability_.limit);
-    stability_.asked = settings_.drape.step.longest;
-    stability_.limit = first ? event.stable_step : std::min(stability_.limit, event.stable_step);
-    stability_.taken = first ? event.shortest : std::min(stability_.taken, event.shortest);
+    StabilityUse& use = progress_.stability;
+    const bool first = std::isnan(use.limit);
+    use.asked = settings_.drape.step.longest;
+    use.limit = first ? event.stable_step : std::min(use.limit, event.stable_step);
+    use.taken = first ? event.shortest : std::min(use.taken, event.shortest);
     if (first && event.shortest < settings_.drape.step.longest)
         recorder_->say(fmt::format(
             "solver.step is {:.3g} s, the stability limit of {} here {:.3g} s: taking steps of {:.3g} s",
@@ -108,15 +135,16 @@ bool DrapeRun::after_step(const StepEvent& event)
     recorder_->report(progress_.stage, event, counters.steps);
     const bool shown = progress_.stage != RunStage::press && progress_.stage != RunStage::coarse;
     if (shown) recorder_->write_frame(*phase_, event, elapsed(), false);
-    // In the middle of a static attempt there is nothing to go on from: it is repeated from its start.
-    if (event.dt > 0 && elapsed() - last_checkpoint_ >= settings_.output.checkpoint_interval) save();
+    // In the middle of a static attempt there is nothing to go on from either.
+    const bool may_go_on_here = event.dt > 0 && progress_.stage != RunStage::coarse;
+    if (may_go_on_here && elapsed() - last_checkpoint_ >= settings_.output.checkpoint_interval) save();
     return !must_stop();
 }
 
 bool DrapeRun::must_stop() const
 {
     const bool out_of_time = settings_.max_wall > 0 && elapsed() - wall_before_ > settings_.max_wall;
-    return interrupt_requested() || out_of_time;
+    return interrupt_requested() || stopped_ || out_of_time;
 }
 
 PhaseEnd DrapeRun::run_sewing()
@@ -143,25 +171,33 @@ PhaseEnd DrapeRun::run_pressing()
                        [this](const StepEvent& event) { return after_step(event); });
 }
 
-EquilibriumOptions DrapeRun::draping_options() const
+EquilibriumOptions DrapeRun::draping_options()
 {
     EquilibriumOptions options = settings_.drape;
     options.integrator = integrator_.get();
     options.stop = [this] { return must_stop(); };
+    options.attempt = [this](bool undone) { hear_attempt(undone); };
     return options;
 }
 
 PhaseEnd DrapeRun::run_coarse()
 {
     const TraceScope scope("coarse");
-    const CoarseStart start =
-        drape_coarse_first(settings_, model_, draping_options(), phase_->system().clock(), progress_.draping, profile_,
-                           [this](const StepEvent& event) { return after_step(event); });
-    if (start.stopped) return PhaseEnd::stopped;
-    coarse_stages_ = start.stages;
+    CoarseStart& start = progress_.coarse;
+    repeats_from_ = progress_;
+    Clock clock = phase_->system().clock();
+    const auto after_stage = [&] {
+        phase_->system().clock() = clock;
+        repeats_from_ = progress_;
+        save();
+    };
+    if (!drape_coarse_first(
+            settings_, model_, draping_options(), clock, progress_.draping, profile_,
+            [this](const StepEvent& event) { return after_step(event); }, start, after_stage))
+        return PhaseEnd::stopped;
     progress_.stage = RunStage::drape;
     if (!start.positions.empty()) {
-        phase_->start_over(model_.cloth_model, start.positions);
+        phase_->start_over(model_.cloth_model, std::exchange(start.positions, {}));
         integrator_ = make_integrator(word_of(settings_.integrator), *phase_);
         if (settings_.output.frames && model_.sews) recorder_->write_frame(*phase_, {}, elapsed(), true);
         save();
@@ -227,16 +263,17 @@ RunOutcome DrapeRun::conclude_at_rest()
 RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
 {
     const TraceScope scope("conclude");
+    // A run that is resumed goes on from here, and without the frame that this one ends with.
+    save();
     phase_->system().refresh_pairs();
     const double residual = phase_->system().residual(), time = phase_->system().clock().time;
     const StepEvent event{time, 0, 0, 0, residual};
     // A garment that is still being pressed is not yet the draped one that run.h5 begins with.
     if (progress_.stage != RunStage::press) recorder_->write_frame(*phase_, event, elapsed(), true);
-    save();
     recorder_->close_phase();
     const double bodies_time = progress_.stage == RunStage::sew ? 0 : time;  // they wait for the garment
     recorder_->conclude(status, bodies_time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
-                        stability_, coarse_stages_, profile_, residual, elapsed(), message);
+                        progress_.stability, progress_.coarse.stages, profile_, residual, elapsed(), message);
     const bool complete = status == RunStatus::converged || status == RunStatus::finished;
     if (complete && !settings_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());
     int code = complete ? 0 : 4;
@@ -272,9 +309,13 @@ std::string DrapeRun::why_not_done() const
 
 RunOutcome DrapeRun::execute()
 {
-    options_.resume ? resume() : begin();
+    if (!options_.resume)
+        begin();
+    else if (!resume())
+        return nothing_left(options_.folder);
     try {
-        const PhaseEnd end = run_phases();
+        const PhaseEnd end = progress_.ended ? PhaseEnd::reached : run_phases();
+        progress_.ended = end == PhaseEnd::reached;
         if (end == PhaseEnd::stopped) return conclude_stopped();
         if (end == PhaseEnd::time_limit) return conclude(RunStatus::time_limit, why_not_done());
         const bool timed = !settings_.until.equilibrium;
@@ -291,13 +332,19 @@ RunOutcome DrapeRun::execute()
 
 RunOutcome run_drape(const Scene& scene, const RunOptions& options)
 {
+    RunOptions used = options;
+    if (options.resume && !has_checkpoint(options.folder)) {
+        if (is_done(scene, options.folder)) return nothing_left(options.folder);
+        used.resume = false;
+        used.notice = "no checkpoint in " + options.folder + " to go on from: the run starts from the beginning";
+    }
     std::optional<tbb::global_control> limit;
     if (scene.solver.threads > 0)
         limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(scene.solver.threads));
     std::optional<Trace> trace;
     if (options.profile) trace.emplace();
     const TraceUse use(trace ? &*trace : nullptr);
-    const RunOutcome outcome = DrapeRun(scene, options).execute();
+    const RunOutcome outcome = DrapeRun(scene, used).execute();
     if (trace) conclude_profile(*trace, options.folder);
     return outcome;
 }

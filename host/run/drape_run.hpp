@@ -27,16 +27,17 @@ private:
     void start_phase(RunStage stage, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
     void begin();
     void start_afresh(RunStage stage);
-    void resume();
+    bool resume();
     void save();
     PhaseEnd run_phases();
     PhaseEnd run_sewing();
     void join_seams();
     PhaseEnd run_pressing();
-    EquilibriumOptions draping_options() const;
+    EquilibriumOptions draping_options();
     PhaseEnd run_coarse();
     PhaseEnd run_draping();
     bool after_step(const StepEvent& event);
+    void hear_attempt(bool undone);
     bool must_stop() const;
     void note_stability(const StepEvent& event);
     double elapsed() const;
@@ -52,14 +53,15 @@ private:
     SceneModel model_;
     RunPlan plan_;
     RunSettings settings_;
+    RunIdentity identity_;
     Profile profile_;
     std::optional<BodyQuery> query_;
     std::unique_ptr<Phase> phase_;
     std::unique_ptr<Integrator> integrator_;  ///< Of the drape; sewing has its own.
-    StabilityUse stability_;
-    std::vector<CoarseStage> coarse_stages_;
     RunProgress progress_;
+    RunProgress repeats_from_;    ///< What a run resumed in the middle of a coarse stage or an attempt goes on from.
     double wall_before_ = 0;      ///< Of the runs that this one resumes [s].
+    bool stopped_ = false;        ///< By RunOptions::after_checkpoint.
     double last_checkpoint_ = 0;  ///< elapsed() then [s].
     std::unique_ptr<RunRecorder> recorder_;
 };

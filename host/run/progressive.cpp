@@ -124,11 +124,11 @@ std::vector<Vec3> carry_over(const Cloth& fine, const Prolongation& prolongation
     return result;
 }
 
-CoarseStart drape_coarse_first(const RunSettings& settings, const SceneModel& model, const EquilibriumOptions& options,
-                               Clock& clock, DrapeProgress& progress, Profile& profile, const AfterStep& after_step)
+bool drape_coarse_first(const RunSettings& settings, const SceneModel& model, const EquilibriumOptions& options,
+                        Clock& clock, DrapeProgress& progress, Profile& profile, const AfterStep& after_step,
+                        CoarseStart& start, const std::function<void()>& after_stage)
 {
-    CoarseStart start;
-    for (std::size_t level = settings.coarser.size(); level-- > 0;) {
+    for (std::size_t level = settings.coarser.size() - start.stages.size(); level-- > 0;) {
         const TraceScope scope("coarse_" + std::to_string(level + 1));
         const auto begin = std::chrono::steady_clock::now();
         Stage stage(settings, model, level);
@@ -136,9 +136,9 @@ CoarseStart drape_coarse_first(const RunSettings& settings, const SceneModel& mo
                     &finer = level == 0 ? model.cloth_model.cloth : model.cloth_model.coarser[level - 1];
         const bool carried = !start.positions.empty();
         CoarseStage report{.vertices = int(own.positions.size())};
-        start.stopped = !drape_stage(stage, model.sews && !carried, carried ? start.positions : own.positions, options,
-                                     clock, progress, profile, after_step, report);
-        if (start.stopped) return start;
+        if (!drape_stage(stage, model.sews && !carried, carried ? start.positions : own.positions, options, clock,
+                         progress, profile, after_step, report))
+            return false;
         if (report.used) {
             start.positions = carry_over(finer, model.cloth_model.prolongations[level], stage.phase->positions());
             if (stage.phase->cloth_contact())
@@ -151,8 +151,9 @@ CoarseStart drape_coarse_first(const RunSettings& settings, const SceneModel& mo
         progress = report.used ? after_carrying(!model.cloth_model.bodies.empty()) : DrapeProgress{};
         report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         start.stages.push_back(report);
+        after_stage();
     }
-    return start;
+    return true;
 }
 
 }  // namespace selvage

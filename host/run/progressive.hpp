@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -19,10 +20,10 @@ struct CoarseStage {
     bool used = true;       ///< False: it diverged, or the finer mesh in its shape intersects too much.
 };
 
+/// What came of the coarser cloths so far; kept in checkpoints.
 struct CoarseStart {
     std::vector<CoarseStage> stages;  ///< Coarsest first.
-    std::vector<Vec3> positions;      ///< Of the finest cloth [m]; empty if there is no shape to start it from.
-    bool stopped = false;             ///< By after_step; there are no positions then.
+    std::vector<Vec3> positions;      ///< Of the next finer cloth [m]; empty if there is no shape to start it from.
 };
 
 /// Drapes the coarser cloths of a scene, each from the shape of the one before, and carries the last shape over to the
@@ -34,8 +35,12 @@ struct CoarseStart {
 /// @param settings  of the run: they say how many coarser cloths are draped
 /// @param options   of the drape of the run itself; every coarser cloth has an integrator of the same kind
 /// @param clock     of the run: goes on from stage to stage
-CoarseStart drape_coarse_first(const RunSettings& settings, const SceneModel& model, const EquilibriumOptions& options,
-                               Clock& clock, DrapeProgress& progress, Profile& profile, const AfterStep& after_step);
+/// @param start     what stages have left so far: those are not repeated
+/// @param after_stage  called after each stage, whose result stands in `start`: a place to go on from
+/// @returns whether the run goes on; false: stopped by after_step, in the middle of a stage that has to be repeated
+bool drape_coarse_first(const RunSettings& settings, const SceneModel& model, const EquilibriumOptions& options,
+                        Clock& clock, DrapeProgress& progress, Profile& profile, const AfterStep& after_step,
+                        CoarseStart& start, const std::function<void()>& after_stage);
 
 /// Interpolates a shape of a coarser cloth, linearly: the fine edges are then as stretched as the coarse ones. A
 /// smoother surface would be longer than its chords, and cloth resists that far more than the creases that are left

@@ -1,122 +1,91 @@
 #include "host/run/restart.hpp"
 
-#include <cstring>
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/model/body.hpp"
-#include "host/solver/state/snapshot.hpp"
-#include "host/solver/stepping/sleep.hpp"
-#include "io/errors.hpp"
+#include "host/run/checkpoint_values.hpp"
+#include "host/run/phase_memory.hpp"
+#include "host/scene/scene_values.hpp"
+#include "io/content_hash.hpp"
 
 namespace selvage {
 namespace {
 
-// FNV-1a, over the bits of what a model consists of.
-class Fingerprint {
-public:
-    template <class T>
-    void add(const T& value)
-    {
-        unsigned char bytes[sizeof(T)];
-        std::memcpy(bytes, &value, sizeof(T));
-        for (unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211ull;
-    }
-    void add(const Vec3& x)
-    {
-        for (int c = 0; c < 3; ++c) add(x[c]);
-    }
-    std::string text() const { return fmt::format("{:016x}", hash_); }
-
-private:
-    unsigned long long hash_ = 14695981039346656037ull;
-};
-
+// Adds the bits of numbers, or of vectors of them.
 template <class T>
-const std::vector<T>& array_of(const std::map<std::string, std::vector<T>>& arrays, const char* name,
-                               const std::string& path, std::size_t size)
+void add(ContentHash& hash, const std::vector<T>& items)
 {
-    const auto at = arrays.find(name);
-    const std::size_t found = at == arrays.end() ? 0 : at->second.size();
-    if (at == arrays.end() || found != size)
-        throw InputError({path, 0, 0, name}, fmt::format("{} numbers", found),
-                         fmt::format("{} numbers, in a checkpoint of this version of selvage", size));
-    return at->second;
+    hash.add({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)});
 }
 
-void save_contact(Checkpoint& checkpoint, const ClothContact& contact)
+// Cloth, seams and bodies; the scene says everything else.
+std::string hash_of_meshes(const ClothModel& model)
 {
-    PackedFriction friction = pack(contact.memory());
-    checkpoint.integers["pair_keys"] = std::move(friction.keys);
-    checkpoint.reals["pair_friction"] = std::move(friction.values);
-    const auto save_flags = [&](const char* name, const std::vector<char>& flags) {
-        checkpoint.integers[name].assign(flags.begin(), flags.end());
-    };
-    save_flags("cloth_inside", contact.crossings().inside);
-    save_flags("cloth_tangled", contact.crossings().tangled);
-    save_flags("cloth_pierced", contact.crossings().pierced);
+    ContentHash hash;
+    add(hash, model.cloth.positions);
+    add(hash, model.cloth.panel_coordinates);
+    add(hash, model.cloth.faces);
+    add(hash, model.cloth.seam_pairs);
+    for (const Body& body : model.bodies) add(hash, body.mesh.vertices);
+    return hash.text();
 }
 
-FrictionMemory friction_memory_of(const Checkpoint& checkpoint, const std::string& path)
+// One line for each key; words of a scene hold no line breaks but in long texts, which are of no account here.
+std::string lines_of(const std::map<std::string, std::string>& values)
 {
-    const auto keys = checkpoint.integers.find("pair_keys");
-    const auto values = checkpoint.reals.find("pair_friction");
-    if (keys == checkpoint.integers.end() || values == checkpoint.reals.end())
-        throw InputError({path, 0, 0, "pair_friction"}, "no such array", "pair_keys and pair_friction");
-    std::optional<FrictionMemory> memory = unpack({keys->second, values->second});
-    if (!memory)
-        throw InputError({path, 0, 0, "pair_friction"},
-                         fmt::format("{} keys and {} values", keys->second.size(), values->second.size()),
-                         fmt::format("{} keys and {} values for each pair in contact, pairs in ascending order",
-                                     PackedFriction::keys_per_pair, PackedFriction::values_per_pair));
-    return std::move(*memory);
+    std::string lines;
+    for (const auto& [key, value] : values) lines += key + "=" + std::string(value, 0, value.find('\n')) + "\n";
+    return lines;
 }
 
-CrossingFlags crossings_of(const Checkpoint& checkpoint, const std::string& path, std::size_t particles)
+std::map<std::string, std::string> values_of(const std::string& lines)
 {
-    const auto flags = [&](const char* name) {
-        const std::vector<int>& values = array_of(checkpoint.integers, name, path, particles);
-        for (int value : values)
-            if (value != 0 && value != 1) throw InputError({path, 0, 0, name}, fmt::format("{}", value), "0 or 1");
-        return std::vector<char>(values.begin(), values.end());
-    };
-    CrossingFlags crossings;
-    crossings.inside = flags("cloth_inside");
-    crossings.tangled = flags("cloth_tangled");
-    crossings.pierced = flags("cloth_pierced");
-    return crossings;
-}
-
-std::string word_in(const Checkpoint& checkpoint, const std::string& name)
-{
-    const auto at = checkpoint.words.find(name);
-    return at == checkpoint.words.end() ? std::string() : at->second;
+    std::map<std::string, std::string> values;
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t middle = std::min(line.find('='), line.size());
+        values[line.substr(0, middle)] = line.substr(std::min(middle + 1, line.size()));
+    }
+    return values;
 }
 
 // Names every number of what a run remembers beside the particles. The bindings name all members of a struct, so a new
 // one does not compile until it is given a name here.
+template <class Memory, class Visit>
+void visit_steps(Memory& memory, const std::string& of, const Visit& visit)
+{
+    auto& [dt, knows_energy, first_energy, highest_kinetic, lowest_potential] = memory;
+    visit(of + ".dt", dt);
+    visit(of + ".knows_energy", knows_energy);
+    visit(of + ".first_energy", first_energy);
+    visit(of + ".highest_kinetic", highest_kinetic);
+    visit(of + ".lowest_potential", lowest_potential);
+}
+
 template <class Progress, class Visit>
 void visit_sewing(Progress& sewing, const Visit& visit)
 {
-    auto& [best_gap, steps_without_gain, elastic_energy, gap, energy_change, dt] = sewing;
+    auto& [best_gap, steps_without_gain, elastic_energy, gap, energy_change, steps] = sewing;
     visit("sewing.best_gap", best_gap);
     visit("sewing.steps_without_gain", steps_without_gain);
     visit("sewing.elastic_energy", elastic_energy);
     visit("sewing.gap", gap);
     visit("sewing.energy_change", energy_change);
-    visit("sewing.dt", dt);
+    visit_steps(steps, "sewing", visit);
 }
 
 template <class Progress, class Visit>
 void visit_draping(Progress& draping, const Visit& visit)
 {
-    auto& [switch_residual, hold, residual, dt, load, asleep] = draping;
+    auto& [switch_residual, hold, residual, steps, load, asleep] = draping;
     visit("draping.switch_residual", switch_residual);
     visit("draping.hold", hold);
     visit("draping.residual", residual);
-    visit("draping.dt", dt);
+    visit_steps(steps, "draping", visit);
     visit("draping.load", load);
     visit("draping.asleep", asleep);
 }
@@ -124,11 +93,13 @@ void visit_draping(Progress& draping, const Visit& visit)
 template <class Progress, class Visit>
 void visit_progress(Progress& progress, const Visit& visit)
 {
-    auto& [stage, sewing, pressing, draping, counters, wall_seconds, frames] = progress;  // the stage is a word
+    // The stage is a word; what is not always there has its own functions.
+    auto& [stage, sewing, pressing, draping, counters, frame, stability, coarse, ended, wall_seconds, frames] =
+        progress;
     visit_sewing(sewing, visit);
-    auto& [press_step, press_dt] = pressing;
+    auto& [press_step, press_steps] = pressing;
     visit("pressing.step", press_step);
-    visit("pressing.dt", press_dt);
+    visit_steps(press_steps, "pressing", visit);
     visit_draping(draping, visit);
     // Seconds have names of their own, integrators are words.
     auto& [steps, newton_iterations, linear_iterations, simulated, seconds, integrators] = counters;
@@ -136,161 +107,133 @@ void visit_progress(Progress& progress, const Visit& visit)
     visit("counters.newton_iterations", newton_iterations);
     visit("counters.linear_iterations", linear_iterations);
     visit("counters.simulated", simulated);
+    auto& [iterations_since_frame, relaxed_since_frame] = frame;
+    visit("frame.iterations", iterations_since_frame);
+    visit("frame.relaxed", relaxed_since_frame);
+    visit("ended", ended);
     visit("wall_seconds", wall_seconds);
     visit("frames", frames);
 }
 
-// What changes of a system beside its fields: the time, and parameters that sewing raises.
-template <class AnySystem, class Visit>
-void visit_system(AnySystem& system, const Visit& visit)
-{
-    visit("time", system.clock().time);
-    visit("seam.stiffness", system.params().seam.stiffness);
-    visit("seam.force_limit", system.params().seam.force_limit);
-}
-
-// Takes and gives values by name.
-struct Saver {
-    Checkpoint& to;
-
-    void operator()(std::string_view name, int value) const { to.integers[std::string(name)] = {value}; }
-    void operator()(std::string_view name, double value) const { to.reals[std::string(name)] = {value}; }
-    void operator()(std::string_view name, const std::vector<real>& values) const
-    {
-        to.reals[std::string(name)] = values;
-    }
-};
-
-struct Loader {
-    const Checkpoint& from;
-    const std::string& path;
-
-    void operator()(std::string_view name, int& value) const
-    {
-        value = array_of(from.integers, std::string(name).c_str(), path, 1)[0];
-    }
-    void operator()(std::string_view name, double& value) const
-    {
-        value = array_of(from.reals, std::string(name).c_str(), path, 1)[0];
-    }
-    void operator()(std::string_view name, std::vector<real>& values) const
-    {
-        values = array_of(from.reals, std::string(name).c_str(), path, values.size());
-    }
-};
-
-template <class Visit>
-void visit_history(Integrator& integrator, const Visit& visit)
-{
-    for (const HistoryArray& array : integrator.history())
-        visit("integrator." + std::string(array.name), *array.values);
-}
-
 constexpr std::string_view seconds_prefix = "seconds.";  // of each phase
+
+void save_stability(const CheckpointSaver& save, const StabilityUse& stability)
+{
+    const bool known = !std::isnan(stability.limit);
+    save("stability",
+         known ? std::vector<real>{stability.asked, stability.limit, stability.taken} : std::vector<real>{});
+}
+
+StabilityUse stability_of(const CheckpointLoader& load)
+{
+    if (load.reals("stability").empty()) return {};
+    const std::vector<double>& values = load.reals("stability", 3);
+    return {values[0], values[1], values[2]};
+}
+
+constexpr int coarse_counts = 5, coarse_measures = 2;  // numbers of each coarse stage
+constexpr double diverged = -1;                        // in place of its residual
+
+void save_coarse(const CheckpointSaver& save, const CoarseStart& coarse)
+{
+    std::vector<int> counts;
+    std::vector<real> measures;
+    for (const CoarseStage& stage : coarse.stages) {
+        const auto& [vertices, newton, linear, residual, wall_seconds, intersections, used] = stage;
+        counts.insert(counts.end(), {vertices, newton, linear, intersections, int(used)});
+        measures.insert(measures.end(), {std::isnan(residual) ? diverged : residual, wall_seconds});
+    }
+    save("coarse.counts", counts);
+    save("coarse.measures", measures);
+    save("coarse.positions", coarse.positions);
+}
+
+// @param goes_on  there are coarser cloths to drape yet
+CoarseStart coarse_of(const CheckpointLoader& load, const std::vector<std::size_t>& carried_to, bool goes_on)
+{
+    CoarseStart coarse;
+    const std::vector<int>& counts = load.integers("coarse.counts");
+    const std::size_t done = counts.size() / coarse_counts;
+    if (counts.size() != done * coarse_counts || (goes_on && done > carried_to.size()))
+        load.refuse("coarse.counts", fmt::format("{} numbers", counts.size()),
+                    fmt::format("{} for each of at most {} coarser cloths", coarse_counts, carried_to.size()));
+    const std::vector<double>& measures = load.reals("coarse.measures", coarse_measures * done);
+    for (std::size_t k = 0; k < done; ++k) {
+        const int* count = counts.data() + coarse_counts * k;
+        const double residual = measures[coarse_measures * k];
+        CoarseStage stage{.vertices = count[0],
+                          .newton_iterations = count[1],
+                          .linear_iterations = count[2],
+                          .wall_seconds = measures[coarse_measures * k + 1],
+                          .intersections = count[3],
+                          .used = count[4] != 0};
+        if (residual != diverged) stage.residual = residual;
+        coarse.stages.push_back(stage);
+    }
+    coarse.positions = load.vectors("coarse.positions");
+    const std::size_t expected = goes_on && done > 0 ? carried_to[done - 1] : 0;
+    if (!coarse.positions.empty() && coarse.positions.size() != expected)
+        load.refuse("coarse.positions", fmt::format("{} positions", coarse.positions.size()),
+                    fmt::format("{}", expected));
+    return coarse;
+}
 
 }  // namespace
 
-std::string model_fingerprint(const SceneModel& model)
+RunIdentity identity_of(const RunSettings& settings, const SceneModel& model)
 {
-    Fingerprint print;
-    const Cloth& cloth = model.cloth_model.cloth;
-    for (const Vec3& x : cloth.positions) print.add(x);
-    for (const Vec2& u : cloth.panel_coordinates) {
-        print.add(u.x());
-        print.add(u.y());
-    }
-    for (const Face& f : cloth.faces) print.add(f);
-    for (const auto& pair : cloth.seam_pairs) print.add(pair);
-    for (const auto& [name, f] : model.cloth_model.fabrics)
-        for (double value :
-             {f.areal_density, f.stretch_weft, f.stretch_warp, f.stretch_coupling, f.shear, f.bending_weft,
-              f.bending_warp, f.hysteresis_weft, f.hysteresis_warp, f.friction, f.damping})
-            print.add(value);
-    for (const auto& [name, f] : model.cloth_model.fabrics)
-        for (const StressCurve& curve : membrane_curves(f))
-            for (const CurveRange& range : curve) print.add(range);
-    for (const Body& body : model.cloth_model.bodies) {
-        for (const Vec3& x : body.mesh.vertices) print.add(x);
-        // Where it is at a few times tells motions apart.
-        for (int k = 1; body.motion && k <= 8; ++k)
-            for (const Vec3& x : body_mesh_at(body, body.motion->end() * k / 8).vertices) print.add(x);
-    }
-    for (const PinMotion& motion : cloth.pin_motions) {
-        print.add(motion.velocity);
-        print.add(motion.axis);
-        print.add(motion.point);
-        for (double value : {motion.start, motion.end, motion.turns}) print.add(value);
-        for (int vertex : motion.vertices) print.add(vertex);
-    }
-    return print.text();
+    const ClothModel& cloths = model.cloth_model;
+    RunIdentity identity{settings.values, hash_of_meshes(cloths), {}};
+    for (std::size_t level = settings.coarser.size(); level-- > 0;)
+        identity.carried_to.push_back((level == 0 ? cloths.cloth : cloths.coarser[level - 1]).positions.size());
+    return identity;
 }
 
-void save_run(const std::string& path, const SceneModel& model, const RunProgress& p, const Phase& phase,
+void save_run(const std::string& path, const RunIdentity& identity, const RunProgress& p, const Phase& phase,
               Integrator& integrator)
 {
-    const State& state = phase.state();
     Checkpoint checkpoint;
-    checkpoint.words = {{"model", model_fingerprint(model)},
+    checkpoint.words = {{"scene", lines_of(identity.scene)},
+                        {"meshes", identity.meshes},
                         {"phase", text_of(p.stage)},
-                        {"integrator", std::string(integrator.info().name)},
                         {"integrators", fmt::format("{}", fmt::join(p.counters.integrators, " "))}};
-    const Saver save{checkpoint};
+    const CheckpointSaver save{checkpoint};
     RunProgress progress = p;
-    if (state.awake.all) progress.draping.asleep = 0;
+    if (phase.state().awake.all) progress.draping.asleep = 0;
     visit_progress(progress, save);
-    visit_system(phase.system(), save);
-    visit_kept(state, save);
-    visit_history(integrator, save);
-    if (!state.awake.all) {
-        checkpoint.integers["is_awake"].assign(state.awake.is_awake.begin(), state.awake.is_awake.end());
-        checkpoint.reals["asleep"] = {state.awake.force_squared};
-    }
-    if (phase.cloth_contact()) save_contact(checkpoint, *phase.cloth_contact());
+    save_stability(save, p.stability);
+    save_coarse(save, p.coarse);
     for (const auto& [name, seconds] : p.counters.phases) save(std::string(seconds_prefix) + name, seconds);
+    save_phase(checkpoint, phase, integrator);
     write_checkpoint(path, checkpoint);
 }
 
-RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path, const SceneModel& model)
+RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path, const RunIdentity& identity)
 {
-    if (word_in(checkpoint, "model") != model_fingerprint(model))
-        throw InputError({path, 0, 0, "model"}, "the checkpoint of another cloth, fabric or body",
-                         "one left by this scene; run without --resume to start anew");
+    const CheckpointLoader load{checkpoint, path};
+    auto now = values_of(lines_of(identity.scene)), before = values_of(load.word("scene"));
+    const std::string differing = differing_values(now, before);
+    if (!differing.empty())
+        load.refuse("scene", "the checkpoint of another scene (" + differing + ")",
+                    "one left by this scene; run without --resume to start anew");
+    if (load.word("meshes") != identity.meshes)
+        load.refuse("meshes", "the checkpoint of other meshes of this scene", "one left by this version of selvage");
     RunProgress p;
-    const std::string word = word_in(checkpoint, "phase");
+    const std::string word = load.word("phase");
     const std::optional<RunStage> stage = find_word<RunStage>(word);
-    if (!stage) throw InputError({path, 0, 0, "phase"}, "`" + word + "`", "sew, press, coarse or drape");
+    if (!stage) load.refuse("phase", "`" + word + "`", "sew, press, coarse or drape");
     p.stage = *stage;
-    visit_progress(p, Loader{checkpoint, path});
-    std::istringstream integrators(word_in(checkpoint, "integrators"));
+    visit_progress(p, load);
+    p.ended = p.ended && now["solver.until"] == before["solver.until"];
+    p.stability = stability_of(load);
+    p.coarse = coarse_of(load, identity.carried_to, p.stage == RunStage::coarse);
+    if (p.frames < 0) load.refuse("frames", fmt::format("{}", p.frames), "a count");
+    std::istringstream integrators(load.word("integrators"));
     for (std::string name; integrators >> name;) p.counters.integrators.push_back(name);
     for (const auto& [name, values] : checkpoint.reals)
-        if (name.starts_with(seconds_prefix) && !values.empty())
-            p.counters.phases[name.substr(seconds_prefix.size())] = values.front();
+        if (name.starts_with(seconds_prefix))
+            p.counters.phases[name.substr(seconds_prefix.size())] = load.reals(name, 1)[0];
     return p;
-}
-
-void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase& phase)
-{
-    State& state = phase.state();
-    const Loader load{checkpoint, path};
-    visit_kept(state, load);
-    visit_system(phase.system(), load);
-    if (phase.cloth_contact()) phase.cloth_contact()->set_memory(friction_memory_of(checkpoint, path));
-    phase.system().find_contacts();
-    if (phase.cloth_contact())
-        phase.cloth_contact()->set_crossings(crossings_of(checkpoint, path, std::size_t(state.size.vertex_count)));
-    if (!checkpoint.integers.contains("is_awake")) return;
-    const auto& awake = array_of(checkpoint.integers, "is_awake", path, std::size_t(state.size.vertex_count));
-    phase.system().refresh_pairs();
-    phase.system().evaluate_forces(false);
-    put_to_sleep(phase.system(), std::vector<char>(awake.begin(), awake.end()),
-                 array_of(checkpoint.reals, "asleep", path, 1)[0]);
-}
-
-void load_history(const Checkpoint& checkpoint, const std::string& path, Integrator& integrator)
-{
-    if (word_in(checkpoint, "integrator") != integrator.info().name) return;
-    visit_history(integrator, Loader{checkpoint, path});
 }
 
 }  // namespace selvage

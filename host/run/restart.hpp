@@ -1,6 +1,9 @@
 #pragma once
+#include <map>
 #include <string>
+#include <vector>
 
+#include "host/run/progressive.hpp"
 #include "host/run/run_recorder.hpp"
 #include "host/scene/run_stage.hpp"
 #include "host/solver/stepping/equilibrium.hpp"
@@ -15,27 +18,30 @@ struct RunProgress {
     PressProgress pressing;
     DrapeProgress draping;
     RunCounters counters;
+    FrameProgress frame;
+    StabilityUse stability;
+    CoarseStart coarse;
+    bool ended = false;       ///< There is nothing left to do but to write the results.
     double wall_seconds = 0;  ///< Of this run and those it resumed [s].
     int frames = 0;           ///< Committed in the phase's trajectory.
 };
 
-/// Returns a text that tells scene models apart: cloth, fabrics and bodies, not how the solver is set.
-std::string model_fingerprint(const SceneModel& model);
+/// What a checkpoint must have in common with the run that goes on from it.
+struct RunIdentity {
+    std::map<std::string, std::string> scene;  ///< See scene_values.
+    std::string meshes;                        ///< Hash of the meshes of cloth and bodies that came of it.
+    /// Vertices of the cloth that the shape of each coarse stage is carried over to, in the order of the stages.
+    std::vector<std::size_t> carried_to;
+};
 
-/// Writes a checkpoint: progress, the particles of the phase, what the integrator remembers, and which model it is.
-void save_run(const std::string& path, const SceneModel& model, const RunProgress& progress, const Phase& phase,
+RunIdentity identity_of(const RunSettings& settings, const SceneModel& model);
+
+/// Writes a checkpoint: progress, all of the phase that its next step depends on, and which run it is.
+void save_run(const std::string& path, const RunIdentity& identity, const RunProgress& progress, const Phase& phase,
               Integrator& integrator);
 
-/// Reads what save_run wrote, except for the particles.
-/// @throws InputError if the file is missing, damaged, or of another model
-RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path, const SceneModel& model);
-
-/// Puts the particles of a checkpoint into a phase.
-/// @throws InputError if an array is missing or has another size
-void load_particles(const Checkpoint& checkpoint, const std::string& path, Phase& phase);
-
-/// Gives an integrator the history of a checkpoint; the history of another scheme is left alone.
-/// @throws InputError if an array is missing or has another size
-void load_history(const Checkpoint& checkpoint, const std::string& path, Integrator& integrator);
+/// Reads what save_run wrote, except for the phase; see load_phase.
+/// @throws InputError if the checkpoint is damaged, or of another scene but for what may change
+RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path, const RunIdentity& identity);
 
 }  // namespace selvage

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 
 #include "io/run/summary.hpp"
@@ -11,7 +12,10 @@ struct RunOptions {
     std::string folder = "out";  ///< Where the results go; made if missing.
     bool resume = false;         ///< Go on from the folder's checkpoint.
     bool quiet = false;          ///< No progress on stderr.
-    bool profile = false;        ///< Print what every phase cost, and leave trace.json.
+    std::string notice = {};     ///< Said once the run begins.
+    /// Called after each checkpoint; false stops the run there. For tests of what a resumed run does.
+    std::function<bool()> after_checkpoint = {};
+    bool profile = false;  ///< Print what every phase cost, and leave trace.json.
 };
 
 struct RunOutcome {
@@ -23,7 +27,10 @@ struct RunOutcome {
 /// Sews and drapes a scene and writes trajectory, summary, last frame, picture and checkpoints into the folder.
 /// Sewing runs without gravity until every seam is closed; then sewn vertices become one particle and the garment is
 /// draped, to equilibrium or for a given time.
-/// @throws InputError for a faulty scene, a scene too large for the memory, or a missing checkpoint
+/// With `resume` the run goes on from its checkpoint: docs/resume.md. One that has left none starts from the beginning;
+/// of one that has ended, nothing is touched.
+/// @throws InputError for a faulty scene, a scene too large for the memory, or a checkpoint that is damaged or of
+///         another scene
 RunOutcome run_drape(const Scene& scene, const RunOptions& options);
 
 }  // namespace selvage

@@ -123,11 +123,11 @@ void RunRecorder::report(RunStage stage, const StepEvent& event, int steps)
 
 void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force)
 {
-    iterations_since_frame_ += event.newton_iterations;
-    relaxed_since_frame_ = relaxed_since_frame_ || (event.dt == 0 && event.newton_iterations > 0);
+    since_frame_.iterations += event.newton_iterations;
+    since_frame_.relaxed = since_frame_.relaxed || (event.dt == 0 && event.newton_iterations > 0);
     const double interval = 1 / settings_.frame_rate;
     const bool due = settings_.output.frames && event.dt > 0 && event.time >= next_frame_ - 1e-9;
-    const bool moved = event.time > last_frame_ || relaxed_since_frame_;
+    const bool moved = event.time > last_frame_ || since_frame_.relaxed;
     if (!trajectory_ || !(due || (force && moved))) return;
     const TraceScope scope("write_frame");
     FrameScalars scalars;
@@ -137,10 +137,9 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
     scalars.residual = event.residual;
     scalars.wall_seconds = wall_seconds;
     scalars.contacts = phase.contact() ? phase.contact()->contact_count() : 0;
-    scalars.iterations = iterations_since_frame_;
+    scalars.iterations = since_frame_.iterations;
     trajectory_->write_frame(phase.positions(), scalars);
-    iterations_since_frame_ = 0;
-    relaxed_since_frame_ = false;
+    since_frame_ = {};
     last_frame_ = scalars.time;
     next_frame_ = frame_time_after(scalars.time);
 }

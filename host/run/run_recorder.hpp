@@ -28,6 +28,12 @@ struct RunCounters {
     std::vector<std::string> integrators;  ///< That have moved the cloth while it draped, in their order.
 };
 
+/// What has happened since the last frame was written.
+struct FrameProgress {
+    int iterations = 0;    ///< Of Newton's method.
+    bool relaxed = false;  ///< By static iterations, which take no simulated time.
+};
+
 /// Writes what a run leaves in its folder.
 class RunRecorder {
 public:
@@ -48,6 +54,8 @@ public:
     void say(const std::string& text) { progress_->message(text); }
     /// Writes a frame if one is due at this time, or if `force` and the cloth has moved since the last one.
     void write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force);
+    const FrameProgress& frame_progress() const { return since_frame_; }
+    void set_frame_progress(const FrameProgress& progress) { since_frame_ = progress; }
     int frame_count() const { return trajectory_ ? trajectory_->frame_count() : 0; }
 
     /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
@@ -73,8 +81,7 @@ private:
     double next_frame_ = 0;   ///< Simulated time at which the next frame is due [s].
     double last_frame_ = -1;  ///< Time of the last written frame [s].
     int frames_ = 0;          ///< Of run.h5.
-    int iterations_since_frame_ = 0;
-    bool relaxed_since_frame_ = false;  ///< By static iterations, which take no simulated time.
+    FrameProgress since_frame_;
     bool sewing_phase_ = false;
 };
 

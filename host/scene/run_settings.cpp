@@ -4,6 +4,7 @@
 
 #include "host/scene/coarse_start.hpp"
 #include "host/scene/features.hpp"
+#include "host/scene/scene_values.hpp"
 
 namespace selvage {
 namespace {
@@ -49,6 +50,7 @@ RunSettings make_run_settings(const Scene& scene, const SceneModel& model)
     settings.name = scene.name;
     settings.file = scene.file;
     settings.text = scene.text;
+    settings.values = scene_values(scene);
     settings.step_place = scene.place("solver.step");
     settings.cloth = cloth_settings(scene, model);
     if (why_no_coarse_start(scene, model).empty())

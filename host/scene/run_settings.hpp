@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ struct ClothSettings {
 
 /// How a run computes and what it writes: the scene, made into settings once. Nothing in it is automatic any more.
 struct RunSettings {
-    std::string name, file;  ///< Of the scene.
-    std::string text;        ///< The scene as run.
-    InputPlace step_place;   ///< Of solver.step, for messages.
+    std::string name, file;                     ///< Of the scene.
+    std::string text;                           ///< The scene as run.
+    std::map<std::string, std::string> values;  ///< All that it says: see scene_values.
+    InputPlace step_place;                      ///< Of solver.step, for messages.
     ClothSettings cloth;
     std::vector<ClothSettings> coarser;  ///< Of the coarser cloths that are draped first, finest first.
     IntegratorChoice integrator = IntegratorChoice::implicit_euler;

@@ -1,9 +1,12 @@
 #include "io/run/checkpoint.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "io/atomic_file.hpp"
+#include "io/content_hash.hpp"
 #include "io/errors.hpp"
 #include "io/run/hdf5_file.hpp"
 
@@ -13,7 +16,9 @@ namespace {
 constexpr const char* reals = "/reals";
 constexpr const char* integers = "/integers";
 constexpr const char* words = "/words";
-constexpr const char* schema = "selvage-checkpoint-1";
+constexpr const char* schema = "selvage-checkpoint-2";
+constexpr std::string_view checksum_name = "selvage checksum ";  // then 16 hexadecimal digits: they end the file
+constexpr std::size_t checksum_length = checksum_name.size() + 16;
 
 std::string member(const char* group, const std::string& name) { return std::string(group) + "/" + name; }
 
@@ -29,6 +34,48 @@ Checkpoint read_groups(const Hdf5File& file)
     }
     for (const std::string& name : file.members(words)) checkpoint.words[name] = file.text(member(words, name), "text");
     return checkpoint;
+}
+
+// What ends a file whose contents up to there are as given, which are read piece by piece.
+std::string checksum_of(std::istream& contents, std::uintmax_t size)
+{
+    ContentHash hash;
+    std::string piece(1 << 20, '\0');
+    for (std::uintmax_t left = size; left > 0 && contents.good();) {
+        contents.read(piece.data(), std::streamsize(std::min<std::uintmax_t>(left, piece.size())));
+        hash.add({piece.data(), std::size_t(contents.gcount())});
+        left -= std::uintmax_t(contents.gcount());
+    }
+    return std::string(checksum_name) + hash.text();
+}
+
+void append_checksum(const std::string& path)
+{
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    const std::string checksum = checksum_of(file, std::filesystem::file_size(path));
+    file.clear();
+    file.seekp(0, std::ios::end);
+    file << checksum << std::flush;
+    if (!file) throw InputError({path, 0, 0, {}}, "a file that cannot be written to its end", "a place with room");
+}
+
+void require_checksum(const std::string& path)
+{
+    std::error_code error;
+    const InputPlace place{path, 0, 0, {}};
+    const char* const expected = "a checkpoint written by this version of selvage";
+    if (!std::filesystem::exists(path, error)) throw InputError(place, "no file", expected);
+    if (!std::filesystem::is_regular_file(path, error))
+        throw InputError(place, "something that is not a file", expected);
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error || size < checksum_length) throw InputError(place, "too short a file", expected);
+    std::ifstream file(path, std::ios::binary);
+    const std::string checksum = checksum_of(file, size - checksum_length);
+    std::string found(checksum_length, ' ');
+    if (!file.read(found.data(), std::streamsize(checksum_length)) || !found.starts_with(checksum_name))
+        throw InputError(place, "a file without a checksum at its end", expected);
+    if (found != checksum)
+        throw InputError(place, "contents that do not fit their checksum: the file is damaged", expected);
 }
 
 void protect(Hdf5File& file, const std::string& name, hid_t type, std::size_t size, const void* values)
@@ -61,11 +108,13 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
         file.set_text("/", "schema", schema);
         file.flush();
     }
+    append_checksum(temporary);
     move_into_place(temporary, path);
 }
 
 Checkpoint read_checkpoint(const std::string& path)
 {
+    require_checksum(path);
     const Hdf5File file(path, Hdf5Access::read);
     const std::vector<std::string> found = file.texts("/", "schema");
     if (found.size() != 1 || found.front() != schema)

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <fstream>
+
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.hpp"
@@ -100,6 +102,14 @@ std::string status_name(RunStatus status)
             return "interrupted";
     }
     return "";
+}
+
+std::string read_status(const std::string& path)
+{
+    std::ifstream file(path);
+    const Json json = Json::parse(file, nullptr, false);
+    const auto status = json.is_object() ? json.find("status") : json.end();
+    return json.is_object() && status != json.end() && status->is_string() ? status->get<std::string>() : std::string();
 }
 
 std::string summary_json(const RunSummary& summary)

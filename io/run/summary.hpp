@@ -13,6 +13,9 @@ enum class RunStatus { converged, finished, time_limit, diverged, interrupted };
 /// Returns the word for a status in summary.json, such as `time_limit`.
 std::string status_name(RunStatus status);
 
+/// Returns that word from a summary.json; empty if there is no such file, or it is none.
+std::string read_status(const std::string& path);
+
 /// The use of one kernel over a whole run.
 struct KernelUse {
     std::string name;

@@ -323,10 +323,6 @@ class BadOutput(BadInput):
         os.makedirs(self.path("out/run.h5/occupied"))
         self.assert_folder_refused(self.path("out"))
 
-    def test_resume_without_a_checkpoint(self):
-        result = run("drape", *self.SCENE, "-o", self.path("out"), "--resume")
-        self.assert_refused(result, r"checkpoint\.h5", "no file")
-
     def test_resume_with_a_damaged_checkpoint(self):
         os.mkdir(self.path("out"))
         self.write("out/checkpoint.h5", "this is not HDF5")
@@ -371,13 +367,6 @@ class BadOutput(BadInput):
                 self.assertEqual(result.returncode, 2, result.stderr)
                 self.assertRegex(result.stderr, word)
                 self.assertIn("expected", result.stderr)
-
-    def test_a_refused_resume_leaves_the_results_alone(self):
-        self.assertEqual(run("drape", *self.SCENE, "-o", self.path("out")).returncode, 0)
-        before = sorted(os.listdir(self.path("out")))
-        result = run("drape", *self.SCENE, "-o", self.path("out"), "--resume")
-        self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertEqual(sorted(os.listdir(self.path("out"))), before)
 
 
 class BadPatterns(BadInput):

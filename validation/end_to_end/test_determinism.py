@@ -1,4 +1,4 @@
-"""The same input gives the same motion: bit by bit with the same threads, closely with other numbers of them."""
+"""The same input gives the same motion bit by bit, whatever the number of threads."""
 import os
 import subprocess
 import tempfile
@@ -14,7 +14,7 @@ SCENES = {
     "sphere": ["builtin:sphere", "--set", "sheet.resolution=21", "--set", "solver.until=0.6"],
     "tshirt": ["builtin:tshirt", "--set", "garment.resolution=0.04"],
 }
-CLOSE = 1e-4   # [m]
+FAR = 1e-4   # [m]
 
 
 class Determinism(unittest.TestCase):
@@ -37,13 +37,11 @@ class Determinism(unittest.TestCase):
             for folder, threads in zip(folders, [2, 2, 1]):
                 self.drape(folder, SCENES[name], threads)
             for file in ["sewing.h5", "run.h5"]:
-                first, again = (self.positions(folder, file) for folder in folders[:2])
+                first, again, one = (self.positions(folder, file) for folder in folders)
                 np.testing.assert_array_equal(first, again, file)
-            two, one = self.positions(folders[0]), self.positions(folders[2])
-            self.assertGreater(np.abs(two[-1] - two[0]).max(), CLOSE, "nothing moved, so nothing was compared")
-            difference = np.abs(two[-1].astype(float) - one[-1]).max()
-            print(f"{name}: one thread and two threads differ by {difference:.2e} m at the end")
-            self.assertLess(difference, CLOSE)
+                np.testing.assert_array_equal(first, one, file)
+            two = self.positions(folders[0])
+            self.assertGreater(np.abs(two[-1] - two[0]).max(), FAR, "nothing moved, so nothing was compared")
 
     def test_a_hanging_sheet(self):
         self.check("hanging")

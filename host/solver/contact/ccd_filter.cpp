@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <stdexcept>
 
 #include "host/parallel/launch.hpp"
 #include "host/solver/contact/contact_tuning.hpp"
@@ -199,6 +200,28 @@ std::vector<int> CcdFilter::within_gap() const
         if (gap > 0 && at.distance - at.approach < gap && !crossings_.may_cross(candidates[k])) result.push_back(k);
     }
     return result;
+}
+
+CcdMemory CcdFilter::memory(const TreeBodies& bodies) const
+{
+    CcdMemory memory{tree_.memory(bodies), {}, {}};
+    if (!memory.tree.valid) return memory;
+    memory.distances = distances_;
+    memory.position = last_position_;
+    return memory;
+}
+
+void CcdFilter::set_memory(CcdMemory memory)
+{
+    const std::size_t corners = std::size_t(slot(-1)) + tree_.body_corner_count();
+    if (memory.distances.size() != memory.tree.candidates.size() ||
+        !(memory.position.empty() || memory.position.size() == corners))
+        throw std::invalid_argument("the memory of a filter for another surface");
+    const bool valid = memory.tree.valid;
+    tree_.set_memory(std::move(memory.tree));
+    if (!valid) return;
+    distances_ = std::move(memory.distances);
+    last_position_ = std::move(memory.position);
 }
 
 std::size_t CcdFilter::bytes() const

@@ -56,6 +56,13 @@ struct StepMargins {
     double scarce = 0;  ///< Least room that is left [m].
 };
 
+/// What a filter takes from one refresh to the next.
+struct CcdMemory {
+    TreeMemory tree;
+    std::vector<PairDistance> distances;  ///< Per candidate.
+    std::vector<Vec3> position;           ///< Of each corner at the last refresh, particles first [m].
+};
+
 struct CcdCounts {
     long long refreshes = 0;  ///< Times that candidates were looked for or proved to be complete.
     long long shortened = 0;  ///< Steps that filter_step cut.
@@ -109,6 +116,11 @@ public:
     void let_sleep(const std::vector<char>* is_awake) { tree_.let_sleep(is_awake); }
     /// The next refresh searches: what it finds then depends on nothing that went before.
     void forget() { tree_.forget(); }
+    /// For checkpoints; see ClothTree::memory.
+    CcdMemory memory(const TreeBodies& bodies) const;
+    /// Takes over a memory. The last refresh must have been for the present place, with these bodies.
+    /// @throws std::invalid_argument if it is of another surface
+    void set_memory(CcdMemory memory);
 
     const CcdCounts& counts() const { return counts_; }
     std::size_t bytes() const;

@@ -38,6 +38,7 @@ public:
     bool crossed(const State& state, const std::vector<real>& from) override;
     double search_radius() const override { return gap_ + margin_; }
     int contact_count() const override { return contact_count_; }
+    void set_contact_count(int count) { contact_count_ = count; }  ///< That of planes from a checkpoint.
 
     double time() const { return query_.time(); }              ///< At which the bodies are [s].
     double motion_end() const { return query_.motion_end(); }  ///< See BodyQuery.

@@ -79,6 +79,12 @@ public:
     const FrictionMemory& memory() const { return pairs_.memory(); }
     void set_memory(FrictionMemory memory) { pairs_.set_memory(std::move(memory)); }
 
+    /// What searches for pairs have found, for checkpoints: later searches may begin with it.
+    CcdMemory searches() const { return filter_.memory(boundary_.corners()); }
+    /// Takes them over. @param state  at its present place, with its pairs listed there
+    /// @throws std::invalid_argument if they are of another cloth or other bodies
+    void set_searches(CcdMemory memory) { filter_.set_memory(std::move(memory)); }
+
     /// What crosses, per particle.
     const CrossingFlags& crossings() const { return tangles_.flags(); }
     void set_crossings(CrossingFlags flags) { tangles_.set_flags(std::move(flags)); }

@@ -44,8 +44,19 @@ void write_friction(State& state, int pair, const PairFriction& friction)
     state.pair_limit[pair] = friction.limit;
 }
 
-// Which pairs each particle is a corner of.
-void list_slots(State& state)
+settle_pairs_args settle_args(State& state, const Params& params)
+{
+    settle_pairs_args a;
+    a.contact = bound<cloth_contact_args>(state, params);
+    a.repulsion = bound<cloth_repulsion_args>(state, params);
+    a.friction = bound<cloth_friction_args>(state, params);
+    settle_pairs_FIELDS(BIND_FIELD, BIND_FIELD);
+    return a;
+}
+
+}  // namespace
+
+void list_pair_slots(State& state)
 {
     const int count = state.size.pair_count, ps = state.size.pair_stride, n = state.size.vertex_count;
     std::vector<int> begin(std::size_t(n) + 1);
@@ -61,18 +72,6 @@ void list_slots(State& state)
         for (int i = 0; i < 4; ++i)
             if (const int v = state.pair_vertex[i * ps + p]; v >= 0) state.pair_slot[begin[v]++] = 4 * p + i;
 }
-
-settle_pairs_args settle_args(State& state, const Params& params)
-{
-    settle_pairs_args a;
-    a.contact = bound<cloth_contact_args>(state, params);
-    a.repulsion = bound<cloth_repulsion_args>(state, params);
-    a.friction = bound<cloth_friction_args>(state, params);
-    settle_pairs_FIELDS(BIND_FIELD, BIND_FIELD);
-    return a;
-}
-
-}  // namespace
 
 ContactPairs::ContactPairs(const ContactGaps& gaps, std::vector<double> area, std::vector<double> friction)
     : gaps_(gaps), area_(std::move(area)), friction_(std::move(friction))
@@ -131,7 +130,7 @@ void ContactPairs::list(State& state, const TreeBodies& bodies, const std::vecto
         state.pair_area[p] = area_of(candidate, at);
         state.pair_gap[p] = gaps_.of(candidate);
     });
-    list_slots(state);
+    list_pair_slots(state);
     recall(state);
 }
 

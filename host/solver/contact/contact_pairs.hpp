@@ -51,4 +51,7 @@ private:
     FrictionMemory memory_;
 };
 
+/// Lists of which pairs of the state each particle is a corner. Called where pairs have been set from outside.
+void list_pair_slots(State& state);
+
 }  // namespace selvage

@@ -20,6 +20,14 @@ void visit_kept(Fields& fields, const Visit& visit)
 #include "kernels/fields.def"
 }
 
+/// Calls visit(name, field, info) for each field of a state that the last look at contacts has filled: the FOUND lines.
+template <class AnyState, class Visit>
+void visit_found(AnyState& state, const Visit& visit)
+{
+#define FOUND(name, reason) visit(std::string_view(#name), state.name, field_info(Field::name));
+#include "kernels/fields.def"
+}
+
 /// Copies the fields to a snapshot, whose memory is used again.
 void keep(const State& state, Snapshot& snapshot);
 

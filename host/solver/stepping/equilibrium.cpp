@@ -37,13 +37,18 @@ PhaseEnd minimise_statics(Phase& phase, const EquilibriumOptions& options, Drape
     System& system = phase.system();
     SolverSnapshot start;  // a resumed run repeats an attempt that is interrupted from its start
     keep(system, nullptr, start);
+    options.attempt(false);
     const double began = progress.residual;
     double best = 1e300;
     for (int chunk = 0; chunk < tuning.chunks; ++chunk) {
         const NewtonReport report = phase.newton().relax(newton);
         if (report.broken_off ||
             !after_step({system.clock().time, 0, report.iterations, report.linear_iterations, report.residual})) {
+            restore_crossings(system, start);
             restore(system, nullptr, start);
+            system.refresh_planes();
+            system.refresh_pairs();
+            options.attempt(true);
             return PhaseEnd::stopped;
         }
         if (report.converged) return PhaseEnd::reached;
@@ -120,7 +125,6 @@ public:
         newton_.stop = &options.stop;
         newton_.tolerance = tuning.step_tolerance * options.tolerance;
         enter_mode();
-        if (progress.dt > 0) control_->set_dt(progress.dt);
     }
 
     PhaseEnd go()
@@ -158,7 +162,7 @@ private:
         if (mode_ == RestMode::swing) steps.longest *= tuning.swing_factor;
         if (mode_ == RestMode::hurry) steps.longest *= tuning.hurry_factor;
         if (mode_ != first_mode_) successor_ = make_integrator(hurrying_integrator, phase_);
-        control_.emplace(phase_, successor_ ? *successor_ : integrator_, steps);
+        control_.emplace(phase_, successor_ ? *successor_ : integrator_, steps, progress_.steps);
         longest_ = steps.longest;
     }
 
@@ -177,7 +181,7 @@ private:
             std::max(tuning.less_residual * progress_.switch_residual, tuning.least_residual * options_.tolerance);
         progress_.hold = tuning.steps_between;
         if (mode_ == RestMode::swing) {
-            progress_.dt = 0;
+            progress_.steps = {};
             enter_mode();
         }
         return {};
@@ -191,7 +195,7 @@ private:
             std::min(options_.newton_iterations, hurries ? tuning.hurry_iterations : tuning.most_iterations);
         control_->advance(boundary_moves ? options_.step.longest : longest_, newton_, false);
         if (control_->report().broken_off) return false;
-        progress_.dt = control_->dt();
+        progress_.steps = control_->memory();
         system_.refresh_pairs();
         const std::vector<real>& force = system_.static_force();
         progress_.residual = system_.residual_of(force);
@@ -260,8 +264,7 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
                      DrapeProgress& progress, const AfterStep& after_step)
 {
     std::unique_ptr<Integrator> own;
-    StepControl control(phase, chosen(options, phase, own), with_boundary(options.step));
-    if (progress.dt > 0) control.set_dt(progress.dt);
+    StepControl control(phase, chosen(options, phase, own), with_boundary(options.step), progress.steps);
     NewtonOptions newton;
     newton.max_iterations = options.newton_iterations;
     newton.tolerance = MotionTuning::residual;
@@ -277,7 +280,7 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
         const double frame_end = frame_interval * (std::floor(time / frame_interval + 1e-6) + 1);
         control.advance(std::min(frame_end, until) - time, newton, true);
         if (control.report().broken_off) return PhaseEnd::stopped;
-        progress.dt = control.dt();
+        progress.steps = control.memory();
         system.refresh_pairs();
         if (!after_step(event_of(control, system, system.residual()))) return PhaseEnd::stopped;
     }

@@ -11,6 +11,9 @@ struct EquilibriumOptions {
     double max_time = 30;     ///< Simulated time after which to give up [s].
     int newton_iterations = 12;
     std::function<bool()> stop;  ///< Asked within steps: true gives up the one at hand and stops.
+    /// Called before a static attempt, and with true where one has been broken off and undone: a resumed run repeats
+    /// it.
+    std::function<void(bool undone)> attempt = [](bool) {};
     bool sleeps = true;          ///< What hardly moves is left alone for some steps; see sleep.hpp.
     bool only_balances = false;  ///< Ends where the forces first nearly balance: a finer cloth goes on from there.
     int load_steps = 1;          ///< The weight grows to its whole in so many steps, with rest after each.
@@ -53,9 +56,9 @@ struct DrapeProgress {
     double switch_residual = RestTuning{}.first_residual;
     int hold = 0;            ///< Steps to take before the next attempt.
     double residual = 1e30;  ///< Static residual after the last step [1].
-    double dt = 0;           ///< Of the next step; 0: the longest [s].
-    int load = 0;            ///< Load steps that are done.
-    int asleep = 0;          ///< Steps for which parts of the cloth will sleep.
+    StepMemory steps = {};
+    int load = 0;    ///< Load steps that are done.
+    int asleep = 0;  ///< Steps for which parts of the cloth will sleep.
 };
 
 /// How the cloth is moved on its way to rest.

@@ -72,8 +72,7 @@ void note_step(const Phase& phase, SewingProgress& progress)
 PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progress, const AfterStep& after_step)
 {
     const std::unique_ptr<Integrator> euler = make_integrator("implicit_euler", phase);
-    StepControl control(phase, *euler, {.longest = options.step});
-    if (progress.dt > 0) control.set_dt(progress.dt);
+    StepControl control(phase, *euler, {.longest = options.step}, progress.steps);
     NewtonOptions newton;
     newton.max_iterations = 3;  // on the way to a closed seam accuracy in time is worth nothing
     newton.tolerance = 1e-2;
@@ -82,7 +81,7 @@ PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progres
         if (clock.time >= options.max_time) return PhaseEnd::time_limit;
         pull_harder_if_stuck(phase, options, progress);
         control.advance(options.step, newton, false);
-        progress.dt = control.dt();
+        progress.steps = control.memory();
         note_step(phase, progress);
         if (!after_step({clock.time, control.taken(), control.report().iterations, control.report().linear_iterations,
                          progress.gap / options.closed}))
@@ -102,8 +101,7 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
     phase.params().bending_hysteresis.scale = 0;
     phase.params().gravity = {};
     const std::unique_ptr<Integrator> euler = make_integrator("implicit_euler", phase);
-    StepControl control(phase, *euler, {.longest = step});
-    if (progress.dt > 0) control.set_dt(progress.dt);
+    StepControl control(phase, *euler, {.longest = step}, progress.steps);
     NewtonOptions newton;
     newton.max_iterations = 2;
     const Clock start = phase.system().clock();  // pressing takes none of the run's time
@@ -112,7 +110,7 @@ PhaseEnd press_seams(Phase& phase, double step, PressProgress& progress, const A
         control.advance(step, newton, false);
         phase.system().clock() = start;
         ++progress.step;
-        progress.dt = control.dt();
+        progress.steps = control.memory();
         if (!after_step({start.time, control.taken(), control.report().iterations, control.report().linear_iterations,
                          control.report().residual}))
             end = PhaseEnd::stopped;

@@ -18,13 +18,13 @@ struct SewingProgress {
     double elastic_energy = 0;  ///< After the last step [J].
     double gap = 1e30;          ///< Largest gap after the last step [m].
     double energy_change = 1;   ///< Relative, of the last step [1].
-    double dt = 0;              ///< Of the next step; 0: the longest [s].
+    StepMemory steps = {};
 };
 
 /// Where pressing stands; kept in checkpoints.
 struct PressProgress {
     int step = 0;
-    double dt = 0;  ///< Of the next step; 0: the longest [s].
+    StepMemory steps = {};
 };
 
 /// Returns the largest distance of a stitched pair [m], 0 without stitches.

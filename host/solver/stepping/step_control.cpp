@@ -23,10 +23,12 @@ UnstableStepError::UnstableStepError(double asked, double stable)
 {
 }
 
-StepControl::StepControl(Phase& phase, Integrator& integrator, const StepOptions& options)
-    : system_(phase.system()), integrator_(integrator), options_(options), dt_(options.longest),
+StepControl::StepControl(Phase& phase, Integrator& integrator, const StepOptions& options, const StepMemory& memory)
+    : system_(phase.system()), integrator_(integrator), options_(options), memory_(memory),
       moves_(options.moves_boundary && system_.motion_end() > 0)
 {
+    if (memory.dt > 0) return;
+    memory_.dt = options.longest;
     if (moves_) system_.place_boundary();
 }
 
@@ -44,12 +46,12 @@ void StepControl::return_to(const SolverSnapshot& place, double time)
 // @param begins  at a state that has been accepted: only there a run may end because of the limit
 double StepControl::next_step(double left, bool begins)
 {
-    if (!fills()) return std::min(dt_, left);
+    if (!fills()) return std::min(memory_.dt, left);
     limit_ = integrator_.stable_step();
     if (begins && options_.unstable == UnstableStep::refuse && options_.longest > limit_)
         throw UnstableStepError(options_.longest, limit_);
     const double margin = options_.unstable == UnstableStep::refuse ? 1 : stability_margin;
-    return left / std::ceil(left / std::min(dt_, margin * limit_) - 1e-9);
+    return left / std::ceil(left / std::min(memory_.dt, margin * limit_) - 1e-9);
 }
 
 // Bodies and pins must have come where the step ends. Newton's moves are cleared one by one; schemes that place the
@@ -78,12 +80,12 @@ bool StepControl::too_inaccurate(double dt)
     const double error = std::max(integrator_.error_estimate(), 1e-300);
     const double fit = 0.9 * std::pow(options_.error / error, 1.0 / integrator_.info().error_power);
     if (error > options_.error && dt > 2 * floor_) {
-        dt_ = dt * std::clamp(fit, 0.2, 0.9);
+        memory_.dt = dt * std::clamp(fit, 0.2, 0.9);
         return true;
     }
     const double next = dt * std::clamp(fit, 0.2, 2.0);
     // A step that was cut short for another reason says nothing against longer ones.
-    dt_ = std::min(options_.longest, dt < 0.999 * dt_ ? std::max(dt_, next) : next);
+    memory_.dt = std::min(options_.longest, dt < 0.999 * memory_.dt ? std::max(memory_.dt, next) : next);
     return false;
 }
 
@@ -106,27 +108,29 @@ bool StepControl::passed_into_body(bool last)
 bool StepControl::keeps_energy(const Cover& cover)
 {
     if (moves_ || system_.meets_air() || !integrator_.may_gain_energy()) return true;
-    if (std::isnan(first_energy_)) {
-        first_energy_ = cover.kinetic_before + cover.potential_before;
-        lowest_potential_ = cover.potential_before;
+    auto& [dt, known, first_energy, highest_kinetic, lowest_potential] = memory_;
+    if (!known) {
+        first_energy = cover.kinetic_before + cover.potential_before;
+        lowest_potential = cover.potential_before;
+        known = 1;
     }
-    highest_kinetic_ = std::max(highest_kinetic_, cover.kinetic_before);
-    lowest_potential_ = std::min(lowest_potential_, cover.potential_before);
+    highest_kinetic = std::max(highest_kinetic, cover.kinetic_before);
+    lowest_potential = std::min(lowest_potential, cover.potential_before);
     const double falling = 0.5 * free_mass(system_.state()) * std::pow(9.81 * cover.length, 2);
-    const double moved = std::max(highest_kinetic_, first_energy_ - lowest_potential_) + falling;
+    const double moved = std::max(highest_kinetic, first_energy - lowest_potential) + falling;
     // What has just gone deep into a contact shows there only, and not in the planes that the step began with.
     system_.refresh_planes();
-    return system_.kinetic_energy() + system_.potential_energy() - first_energy_ <= most_gain * moved;
+    return system_.kinetic_energy() + system_.potential_energy() - first_energy <= most_gain * moved;
 }
 
 // After a failure.
 void StepControl::shrink(double dt)
 {
     ++retries_;
-    dt_ = 0.5 * dt;
-    if (!(dt_ >= floor_))
+    memory_.dt = 0.5 * dt;
+    if (!(memory_.dt >= floor_))
         throw DivergenceError(
-            fmt::format("no step down to {:.3g} s succeeds (solver.step is {:.3g} s); residual {:.3g}", dt_,
+            fmt::format("no step down to {:.3g} s succeeds (solver.step is {:.3g} s); residual {:.3g}", memory_.dt,
                         options_.longest, report_.residual));
 }
 
@@ -173,6 +177,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
         if (adapts() && cover.done > 0) keep(system_, &integrator_, last_);
         switch (try_step(cover, dt, options, accurate)) {
             case Verdict::broken_off:
+                restore_crossings(system_, start_);
                 return_to(start_, cover.begin);
                 return taken_ = 0;
             case Verdict::failed:
@@ -188,7 +193,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
                 break;
         }
         const bool last = ends(cover, dt);
-        if (!adapts() && last) dt_ = std::min(options_.longest, 1.5 * dt_);
+        if (!adapts() && last) memory_.dt = std::min(options_.longest, 1.5 * memory_.dt);
         cover.done += dt;
         shortest_ = std::min(shortest_, dt);
         if (!last) continue;

@@ -36,6 +36,14 @@ struct StepOptions {
     bool moves_boundary = false;  ///< Bodies and held vertices move with the clock; otherwise they stand still.
 };
 
+/// What StepControl takes from one step to the next; kept in checkpoints.
+struct StepMemory {
+    double dt = 0;                                     ///< That the next step will try; 0: the longest [s].
+    int knows_energy = 0;                              ///< 1: there have been steps that may gain energy.
+    double first_energy = 0;                           ///< Kinetic and potential, at the first of them [J].
+    double highest_kinetic = 0, lowest_potential = 0;  ///< Before any of them so far [J].
+};
+
 /// Thrown where a step above the stability limit is to be refused.
 class UnstableStepError : public std::runtime_error {
 public:
@@ -47,8 +55,10 @@ public:
 /// schemes fill a step with as many shorter ones as their stability asks for.
 class StepControl {
 public:
-    /// The first step starts at the clock's time, where bodies are put. The references must outlive this object.
-    StepControl(Phase& phase, Integrator& integrator, const StepOptions& options);
+    /// The first step starts at the clock's time. The references must outlive this object.
+    /// @param memory  of another one whose steps are gone on with: bodies are where they should be. Without it they are
+    ///                put there.
+    StepControl(Phase& phase, Integrator& integrator, const StepOptions& options, const StepMemory& memory = {});
 
     /// Takes one step of at most `room` seconds; the clock goes on by its length.
     /// @param accurate  a step whose Newton iterations do not reach their tolerance counts as failed
@@ -58,9 +68,8 @@ public:
     double advance(double room, const NewtonOptions& options, bool accurate);
 
     const NewtonReport& report() const { return report_; }  ///< Of the accepted step.
-    double dt() const { return dt_; }                       ///< That the next step will try [s].
-    double taken() const { return taken_; }                 ///< Of the last accepted step [s].
-    void set_dt(double dt) { dt_ = dt; }
+    const StepMemory& memory() const { return memory_; }
+    double taken() const { return taken_; }  ///< Of the last accepted step [s].
     int retries() const { return retries_; }
     double stable_step() const { return limit_; }  ///< At the last step [s].
     double shortest() const { return shortest_; }  ///< Of the steps that the last accepted one was made of [s].
@@ -94,13 +103,11 @@ private:
     System& system_;
     Integrator& integrator_;
     StepOptions options_;
-    double dt_;
+    StepMemory memory_;
     bool moves_;  ///< Bodies or held vertices.
     double taken_ = 0, shortest_ = 0;
     double floor_ = 0;  ///< Steps below it mean that the run has diverged [s].
     double limit_ = std::numeric_limits<double>::infinity();
-    double first_energy_ = std::numeric_limits<double>::quiet_NaN();  ///< Kinetic and potential, at the first step [J].
-    double highest_kinetic_ = 0, lowest_potential_ = 0;               ///< Before any step so far [J].
     int retries_ = 0;
     NewtonReport report_;
     SolverSnapshot start_, last_;

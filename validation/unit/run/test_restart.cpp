@@ -1,4 +1,9 @@
+#include <fstream>
+#include <iterator>
+#include <limits>
+
 #include "bench/harness/scene_runner.hpp"
+#include "host/run/phase_memory.hpp"
 #include "host/run/restart.hpp"
 #include "host/solver/state/snapshot.hpp"
 #include "io/errors.hpp"
@@ -25,14 +30,19 @@ struct Run {
     }
 };
 
+RunIdentity some_identity() { return {{{"solver.step", "0.02"}, {"solver.until", "2"}}, "0123", {}}; }
+
 RunProgress some_progress()
 {
     RunProgress p;
     p.stage = RunStage::drape;
-    p.sewing = {0.2, 3, 0.4, 0.5, 0.6, 0.7};
-    p.pressing = {8, 0.9};
-    p.draping = {1.2, 13, 1.4, 1.5, 16, 0};
+    p.sewing = {0.2, 3, 0.4, 0.5, 0.6, {0.7}};
+    p.pressing = {8, {0.9}};
+    p.draping = {1.2, 13, 1.4, {1.5, 1, 1.6, 1.7, 1.8}, 16, 0};
     p.counters = {17, 18, 19, 2.1, {{"drape", 2.2}, {"sew", 2.3}}, {"bdf2", "implicit_euler"}};
+    p.frame = {26, true};
+    p.stability = {2.7, 2.8, 2.9};
+    p.ended = true;
     p.wall_seconds = 2.4;
     p.frames = 25;
     return p;
@@ -47,11 +57,10 @@ TEST_CASE("every kept field, the time and all that the integrator remembers come
     Run run, other;
     run.fill_kept(1);
     run.phase.system().clock().time = 0.1;
-    save_run(path, run.runner.model(), some_progress(), run.phase, *run.integrator);
+    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
     other.fill_kept(-7);
     const Checkpoint checkpoint = read_checkpoint(path);
-    load_particles(checkpoint, path, other.phase);
-    load_history(checkpoint, path, *other.integrator);
+    load_phase(checkpoint, path, other.phase, *other.integrator);
 
     CHECK(other.phase.system().clock().time == 0.1);
     std::vector<std::vector<real>> fields;
@@ -74,9 +83,9 @@ TEST_CASE("progress that is loaded and saved again leaves the same checkpoint")
     const ScratchFolder folder;
     const std::string path = folder.path("checkpoint.h5");
     Run run;
-    save_run(path, run.runner.model(), some_progress(), run.phase, *run.integrator);
+    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
     const Checkpoint first = read_checkpoint(path);
-    save_run(path, run.runner.model(), load_progress(first, path, run.runner.model()), run.phase, *run.integrator);
+    save_run(path, some_identity(), load_progress(first, path, some_identity()), run.phase, *run.integrator);
     const Checkpoint second = read_checkpoint(path);
     CHECK(first.reals == second.reals);
     CHECK(first.integers == second.integers);
@@ -90,15 +99,14 @@ TEST_CASE("a checkpoint that lacks any of its entries is refused by that entry's
     const ScratchFolder folder;
     const std::string path = folder.path("checkpoint.h5");
     Run run;
-    save_run(path, run.runner.model(), some_progress(), run.phase, *run.integrator);
+    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
     const Checkpoint whole = read_checkpoint(path);
     const auto check_refused = [&](const Checkpoint& part, const std::string& name) {
         INFO(name);
         std::string message;
         try {
-            load_progress(part, path, run.runner.model());
-            load_particles(part, path, run.phase);
-            load_history(part, path, *run.integrator);
+            load_progress(part, path, some_identity());
+            load_phase(part, path, run.phase, *run.integrator);
         } catch (const InputError& error) {
             message = error.what();
         }
@@ -115,4 +123,57 @@ TEST_CASE("a checkpoint that lacks any of its entries is refused by that entry's
         part.integers.erase(name);
         check_refused(part, name);
     }
+}
+
+TEST_CASE("a checkpoint of another scene is refused by the keys that differ, but for those that may change")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("checkpoint.h5");
+    Run run;
+    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
+    const Checkpoint checkpoint = read_checkpoint(path);
+    RunIdentity longer = some_identity(), finer = some_identity(), newer = some_identity();
+    longer.scene["solver.until"] = "3";
+    CHECK(load_progress(checkpoint, path, longer).frames == 25);
+    finer.scene["solver.step"] = "0.01";
+    CHECK_THROWS_WITH(load_progress(checkpoint, path, finer),
+                      contains_text("solver.step is `0.01`, was `0.02`") && !contains_text("solver.until"));
+    newer.scene["fabric.cotton.thickness"] = "0.0003";
+    CHECK_THROWS_WITH(load_progress(checkpoint, path, newer),
+                      contains_text("fabric.cotton has keys that were not there"));
+}
+
+TEST_CASE("a checkpoint is refused when any of its bits has changed, or when it is cut")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("checkpoint.h5");
+    Checkpoint some;
+    some.reals["pos"] = {1, 2, 3};
+    some.words["phase"] = "drape";
+    write_checkpoint(path, some);
+    CHECK(read_checkpoint(path).reals == some.reals);
+    std::string bytes;
+    {
+        std::ifstream file(path, std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    for (std::size_t k = 0; k < bytes.size(); k += 37) {
+        INFO("byte " << k);
+        std::string damaged = bytes;
+        damaged[k] = char(damaged[k] ^ (1 << k % 8));
+        CHECK_THROWS_AS(read_checkpoint(folder.write("damaged.h5", damaged)), InputError);
+    }
+    CHECK_THROWS_AS(read_checkpoint(folder.write("cut.h5", bytes.substr(0, bytes.size() / 2))), InputError);
+    CHECK_THROWS_AS(read_checkpoint(folder.write("empty.h5", "")), InputError);
+}
+
+TEST_CASE("numbers that are not finite are refused by the name of their array")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("checkpoint.h5");
+    Run run;
+    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
+    Checkpoint checkpoint = read_checkpoint(path);
+    checkpoint.reals["pos"][4] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH(load_phase(checkpoint, path, run.phase, *run.integrator), contains_text("pos"));
 }
