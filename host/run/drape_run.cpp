@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include "host/run/failure_report.hpp"
 #include "host/run/interrupt.hpp"
 #include "host/run/measure.hpp"
 #include "host/run/run_profile.hpp"
@@ -44,6 +45,7 @@ void DrapeRun::begin()
 {
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, false);
     progress_.counters.phases["assemble"] = elapsed();
+    recorder_->warn(model_.findings);
     start_afresh(plan_.coarse_start ? RunStage::coarse : plan_.phases.front().stage);
 }
 
@@ -68,6 +70,7 @@ void DrapeRun::resume()
     load_particles(checkpoint, checkpoint_path(), *phase_);
     load_history(checkpoint, checkpoint_path(), *integrator_);
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, true);
+    recorder_->warn(model_.findings);
     recorder_->open_phase(progress_.stage, phase_->topology(), progress_.frames);
 }
 
@@ -93,9 +96,20 @@ void DrapeRun::note_stability(const StepEvent& event)
             settings_.drape.step.longest, word_of(settings_.integrator), event.stable_step, event.shortest));
 }
 
+void DrapeRun::note_stretch(const StepEvent& event)
+{
+    if (progress_.stage != RunStage::drape || event.dt == 0) return;
+    FaceStretch& largest = progress_.counters.largest;
+    FaceStretch now = largest_stretch(model_.cloth_model.cloth, phase_->positions(), largest.stretch);
+    if (now.face < 0) return;
+    now.time = event.time;
+    largest = now;
+}
+
 bool DrapeRun::after_step(const StepEvent& event)
 {
     note_stability(event);
+    note_stretch(event);
     RunCounters& counters = progress_.counters;
     ++counters.steps;
     counters.newton_iterations += event.newton_iterations;
@@ -235,14 +249,18 @@ RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
     save();
     recorder_->close_phase();
     const double bodies_time = progress_.stage == RunStage::sew ? 0 : time;  // they wait for the garment
-    recorder_->conclude(status, bodies_time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
-                        stability_, coarse_stages_, profile_, residual, elapsed(), message);
+    const std::vector<Finding> at_end =
+        recorder_->conclude(status, bodies_time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
+                            stability_, coarse_stages_, profile_, residual, elapsed(), message);
     const bool complete = status == RunStatus::converged || status == RunStatus::finished;
     if (complete && !settings_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());
     int code = complete ? 0 : 4;
     if (status == RunStatus::diverged) code = 3;
     if (status == RunStatus::interrupted) code = interrupt_exit_code();
-    return {status, code, message};
+    std::string told = message;
+    for (const Finding& finding : findings_that_mattered(model_.findings, complete, at_end))
+        told += (told.empty() ? "" : "\n") + ("warned of at the start: " + describe(finding));
+    return {status, code, told};
 }
 
 RunOutcome DrapeRun::conclude_stopped()
@@ -256,18 +274,8 @@ RunOutcome DrapeRun::conclude_stopped()
 std::string DrapeRun::why_not_done() const
 {
     if (progress_.stage == RunStage::drape)
-        return fmt::format("not at rest after {:.1f} s (solver.max_time): relative force residual {:.2e}, asked {:.2e}",
-                           phase_->system().clock().time, progress_.draping.residual, settings_.drape.tolerance);
-    const Cloth& cloth = model_.cloth_model.cloth;
-    const std::vector<double> gaps = measure_seams(cloth, phase_->positions());
-    const auto worst = std::max_element(gaps.begin(), gaps.end());
-    const Seam& seam = cloth.seams[std::size_t(worst - gaps.begin())];
-    const auto side = [&](int index) {
-        const OutlineSamples& edge = cloth.outline[index];
-        return cloth.panels[edge.panel].name + "[" + std::to_string(edge.edge) + "]";
-    };
-    return fmt::format("the seam of {} and {} is still open by {:.1f} mm after {:.1f} s (seams.max_time)",
-                       side(seam.side_a), side(seam.side_b), 1000 * *worst, settings_.cloth.sew.max_time);
+        return describe(explain(unrest_facts(model_, *phase_, progress_.draping.residual, settings_.drape.tolerance)));
+    return describe(explain(open_seam_facts(model_, *phase_)));
 }
 
 RunOutcome DrapeRun::execute()
@@ -284,8 +292,10 @@ RunOutcome DrapeRun::execute()
                          fmt::format("at most the stability limit of {}, {:.3g} s at {:.3g} s of simulated time, as "
                                      "solver.unstable_step is refuse",
                                      word_of(settings_.integrator), error.limit, phase_->system().clock().time));
-    } catch (const DivergenceError& error) {
-        return conclude(RunStatus::diverged, std::string("diverged: ") + error.what());
+    } catch (const StepFailureError& error) {
+        const std::string message = describe(
+            explain(divergence_facts(model_, *phase_, text_of(progress_.stage), error.failure, integrator_->info())));
+        return conclude(RunStatus::diverged, message);
     }
 }
 

@@ -39,6 +39,7 @@ private:
     bool after_step(const StepEvent& event);
     bool must_stop() const;
     void note_stability(const StepEvent& event);
+    void note_stretch(const StepEvent& event);
     double elapsed() const;
     RunOutcome conclude_at_rest();
     RunOutcome conclude(RunStatus status, const std::string& message);

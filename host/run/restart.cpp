@@ -131,11 +131,15 @@ void visit_progress(Progress& progress, const Visit& visit)
     visit("pressing.dt", press_dt);
     visit_draping(draping, visit);
     // Seconds have names of their own, integrators are words.
-    auto& [steps, newton_iterations, linear_iterations, simulated, seconds, integrators] = counters;
+    auto& [steps, newton_iterations, linear_iterations, simulated, seconds, integrators, largest] = counters;
     visit("counters.steps", steps);
     visit("counters.newton_iterations", newton_iterations);
     visit("counters.linear_iterations", linear_iterations);
     visit("counters.simulated", simulated);
+    auto& [stretch, face, stretch_time] = largest;
+    visit("largest.stretch", stretch);
+    visit("largest.face", face);
+    visit("largest.time", stretch_time);
     visit("wall_seconds", wall_seconds);
     visit("frames", frames);
 }

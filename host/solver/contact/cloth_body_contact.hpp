@@ -38,6 +38,8 @@ public:
     bool crossed(const State& state, const std::vector<real>& from) override;
     double search_radius() const override { return gap_ + margin_; }
     int contact_count() const override { return contact_count_; }
+    /// Per particle, the body whose surface was nearest within search_radius() at the last update; -1: none.
+    const std::vector<int>& body_of_vertex() const { return body_of_vertex_; }
 
     double time() const { return query_.time(); }              ///< At which the bodies are [s].
     double motion_end() const { return query_.motion_end(); }  ///< See BodyQuery.
