@@ -86,6 +86,8 @@ public:
     const TreeCounts& counts() const { return counts_; }
     void forget() { valid_ = false; }  ///< Makes the next call of cover search.
     std::size_t bytes() const;
+    /// What a tree of so many faces and corners will take, but for its candidates [bytes].
+    static std::size_t bytes_of(std::size_t faces, std::size_t corners);
 
 private:
     struct Sweep {  // boxes at both ends of a move; the fourth component is padding, 0 unless empty
