@@ -268,7 +268,10 @@ RunOutcome DrapeRun::conclude_stopped()
     if (interrupt_requested())
         return conclude(RunStatus::interrupted, "interrupted: the state is saved, --resume goes on from here");
     return conclude(RunStatus::time_limit,
-                    fmt::format("stopped after {:.3g} s (solver.max_wall); --resume goes on", settings_.max_wall));
+                    fmt::format("stopped after {:.3g} s (solver.max_wall) at {:.4g} s of simulated time ({}): relative "
+                                "force residual {:.2e}; --resume goes on",
+                                settings_.max_wall, phase_->system().clock().time, text_of(progress_.stage),
+                                phase_->system().residual()));
 }
 
 std::string DrapeRun::why_not_done() const

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -56,6 +57,33 @@ const BodyAt* fastest_of(const std::vector<BodyAt>& bodies)
 
 constexpr const char* shorter_step = "a shorter solver.step";
 
+void explain_torn(const DivergenceFacts& facts, FailureReport& report)
+{
+    const BodyAt* moving = fastest_of(facts.bodies);
+    report.cause = fmt::format("the cloth is torn: {} is stretched by {:.0f} %", facts.stretched, 100 * facts.stretch);
+    if (moving)
+        report.cause += fmt::format(", the body `{}` moves at {:.3g} m/s with friction {:.3g}", moving->name,
+                                    moving->speed, moving->friction);
+    if (facts.holds) report.cause += ", and vertices are held";
+    report.cure = sentence(moving ? "less friction (body.friction) or a slower body (body.keyframe)" : "",
+                           facts.holds ? "other held vertices ([pins], [[pins.motion]])" : "");
+    if (report.cure.empty()) report.cure = "a stiffer fabric (stretch_weft, stretch_warp)";
+}
+
+// Newton's method does not come to an end.
+void explain_unsolved(const DivergenceFacts& facts, FailureReport& report)
+{
+    const BodyAt* moving = fastest_of(facts.bodies);
+    if (facts.stretch > ReportTuning::torn) return explain_torn(facts, report);
+    if (moving && moving->speed * facts.step.longest > facts.gap)
+        report.cause = fmt::format("the body `{}` moves at {:.3g} m/s, {} in a step", moving->name, moving->speed,
+                                   millimetres(moving->speed * facts.step.longest));
+    else
+        report.cause = "Newton's method does not solve the step";
+    report.cure = std::string(shorter_step) + ", more solver.newton_iterations or solver.linear_iterations, " +
+                  "solver.precision = double";
+}
+
 // Bodies or held vertices that cannot get to where they are to be.
 void explain_block(const DivergenceFacts& facts, FailureReport& report)
 {
@@ -73,6 +101,12 @@ void explain_block(const DivergenceFacts& facts, FailureReport& report)
             "leave at least {} between them, twice contact.gap, in their keyframes or sequence, "
             "or lower contact.gap",
             millimetres(2 * facts.gap));
+    } else if (facts.pins_move && held.size() >= 2) {
+        report.cause = fmt::format("held vertices are driven against each other: {} and {}", held.front(), held.back());
+        report.cure =
+            fmt::format("end their [[pins.motion]] before {:.3g} s, or lead them past each other", facts.time);
+    } else if (facts.stretch > ReportTuning::torn) {
+        explain_torn(facts, report);
     } else if (!pushing.empty() && !held.empty()) {
         report.cause = fmt::format("the body `{}` is driven into cloth that is held: {}", pushing, held.front());
         report.cure = "let the held vertices go along ([[pins.motion]]), hold others, or lead the body elsewhere";
@@ -80,39 +114,14 @@ void explain_block(const DivergenceFacts& facts, FailureReport& report)
         report.cause = fmt::format("the body `{}` is driven into cloth that cannot make way", pushing);
         report.cure = "move the body more slowly or leave the cloth more room (body.keyframe), or take " +
                       std::string(shorter_step);
-    } else if (held.size() >= 2) {
-        report.cause = fmt::format("held vertices are driven against each other: {} and {}", held.front(), held.back());
-        report.cure =
-            fmt::format("end their [[pins.motion]] before {:.3g} s, or lead them past each other", facts.time);
+    } else if (const BodyAt* carrying = fastest_of(facts.bodies); carrying && !facts.pins_move) {
+        report.cause = fmt::format("the body `{}` moves at {:.3g} m/s and carries cloth along that cannot make way",
+                                   carrying->name, carrying->speed);
+        report.cure = "move the body more slowly (body.keyframe), less friction, or " + std::string(shorter_step);
     } else {
         report.cause = "held vertices are driven into cloth that cannot make way";
         report.cure = "change their [[pins.motion]], or take " + std::string(shorter_step);
     }
-}
-
-// Newton's method does not come to an end.
-void explain_unsolved(const DivergenceFacts& facts, FailureReport& report)
-{
-    const BodyAt* moving = fastest_of(facts.bodies);
-    if (facts.stretch > ReportTuning::torn) {
-        report.cause =
-            fmt::format("the cloth is torn: {} is stretched by {:.0f} %", facts.stretched, 100 * facts.stretch);
-        if (moving)
-            report.cause += fmt::format(", the body `{}` moves at {:.3g} m/s with friction {:.3g}", moving->name,
-                                        moving->speed, moving->friction);
-        if (facts.holds) report.cause += ", and vertices are held";
-        report.cure = sentence(moving ? "less friction (body.friction) or a slower body (body.keyframe)" : "",
-                               facts.holds ? "other held vertices ([pins], [[pins.motion]])" : "");
-        if (report.cure.empty()) report.cure = "a stiffer fabric (stretch_weft, stretch_warp)";
-        return;
-    }
-    if (moving && moving->speed * facts.step.longest > facts.gap)
-        report.cause = fmt::format("the body `{}` moves at {:.3g} m/s, {} in a step", moving->name, moving->speed,
-                                   millimetres(moving->speed * facts.step.longest));
-    else
-        report.cause = "Newton's method does not solve the step";
-    report.cure = std::string(shorter_step) + ", more solver.newton_iterations or solver.linear_iterations, " +
-                  "solver.precision = double";
 }
 
 void explain_cause(const DivergenceFacts& facts, FailureReport& report)
@@ -274,6 +283,14 @@ VertexAt vertex_at(const ClothModel& model, const Phase& phase, int particle)
             phase.state().inv_mass[std::size_t(particle)] == 0};
 }
 
+// Of one side of a pair, a held corner before others; -1: it is one of a body.
+int telling_corner(const State& state, std::span<const int> side)
+{
+    for (int v : side)
+        if (v >= 0 && state.inv_mass[std::size_t(v)] == 0) return v;
+    return std::max(side.front(), -1);
+}
+
 // The vertex with the longest vector.
 int largest_at(const State& state, const std::vector<real>& field)
 {
@@ -292,22 +309,24 @@ DivergenceFacts divergence_facts(const SceneModel& model, const Phase& phase, co
     const ClothModel& cloth = model.cloth_model;
     const State& state = phase.state();
     DivergenceFacts facts{.stage = stage, .time = phase.system().clock().time, .step = failure};
-    std::vector<int> particles;
-    if (failure.obstacle)
-        for (int corner : failure.obstacle->corner)
-            if (corner >= 0) particles.push_back(corner);
-    if (particles.empty() && failure.particle >= 0) particles.push_back(failure.particle);
-    // Held corners say most, and those of cloth that only follows least.
-    std::stable_partition(particles.begin(), particles.end(),
-                          [&](int v) { return state.inv_mass[std::size_t(v)] == 0; });
-    for (int particle : particles) facts.vertices.push_back(vertex_at(cloth, phase, particle));
-    if (!particles.empty()) facts.bodies = bodies_seen_from(cloth, facts.time, position_of(state, particles.front()));
+    Vec3 at = failure.obstacle_point;
+    if (failure.obstacle) {
+        const auto& corner = failure.obstacle->corner;
+        const int first = failure.obstacle->edges ? 2 : 1;
+        for (const std::span<const int> side : {std::span(corner).first(first), std::span(corner).subspan(first)})
+            if (const int v = telling_corner(state, side); v >= 0) facts.vertices.push_back(vertex_at(cloth, phase, v));
+    } else if (failure.particle >= 0) {
+        facts.vertices.push_back(vertex_at(cloth, phase, failure.particle));
+        at = position_of(state, failure.particle);
+    }
+    if (!facts.vertices.empty()) facts.bodies = bodies_seen_from(cloth, facts.time, at);
     facts.gap = body_gap(phase.params());
     const std::vector<Vec3> positions = phase.positions();
     const FaceStretch largest = largest_stretch(cloth.cloth, positions, 0);
     facts.stretch = largest.stretch;
     if (largest.face >= 0) facts.stretched = describe_face(cloth.cloth, largest.face, positions);
     facts.holds = !cloth.cloth.pinned.empty();
+    facts.pins_move = !cloth.cloth.pin_motions.empty();
     facts.is_explicit = integrator.is_explicit;
     return facts;
 }

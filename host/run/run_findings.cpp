@@ -34,7 +34,8 @@ std::string why_crossed(const ClothModel& model, const EndCrossings& crossings)
 {
     double largest = 0;
     for (const Vec3& x : crossings.positions) largest = std::max(largest, x.cwiseAbs().maxCoeff());
-    const double ulp = largest * double(std::numeric_limits<float>::epsilon());
+    const float at = float(largest);
+    const double ulp = double(std::nextafter(at, std::numeric_limits<float>::infinity()) - at);
     if (ulp > EndTuning::coarse_ulp * typical_edge(model.cloth))
         return fmt::format(
             "positions are written in single precision, which is {:.2g} m coarse there: put the scene "

@@ -63,6 +63,52 @@ until = "equilibrium"
 """
 
 
+DRIVEN_TOGETHER = """
+[[sheet]]
+width = 0.2
+height = 0.1
+resolution = 7
+center = [0, 0, 1]
+[[pins.motion]]
+group = "left_edge"
+velocity = [0.6, 0, 0]
+[[pins.motion]]
+group = "right_edge"
+velocity = [-0.6, 0, 0]
+[solver]
+until = 0.5
+"""
+PINCHED = """
+[[sheet]]
+width = 0.1
+height = 0.1
+resolution = 6
+rotation = [90, 0, 0]
+center = [0, 0, 0.4]
+fabric = "denim"
+[[body]]
+name = "finger"
+shape = "capsule"
+radius = 0.01
+center = [-0.02, -0.0125, 0.43]
+end = [0.02, -0.0125, 0.43]
+[[body.keyframe]]
+time = 0.02
+translation = [0, 0.0035, 0]
+[[body]]
+name = "thumb"
+shape = "capsule"
+radius = 0.01
+center = [-0.02, 0.0125, 0.43]
+end = [0.02, 0.0125, 0.43]
+[[body.keyframe]]
+time = 0.02
+translation = [0, -0.0035, 0]
+[solver]
+until = 0.1
+"""
+
+
 def grid_with_sliver():
     """A square of 0.2 m with 4 x 4 cells, one of whose triangles is 0.2 mm high."""
     points = [[0.05 * column, 0.05 * row] for row in range(5) for column in range(5)]
@@ -113,6 +159,21 @@ class Messages(unittest.TestCase):
         self.assertIn(f"{crossings} pairs of the cloth's triangles intersect at the end", errors)
         self.assertTrue(any("intersect at the end" in warning for warning in summary["warnings"]))
 
+    def test_held_vertices_that_are_driven_against_each_other_are_named(self):
+        code, errors, summary = self.drape(DRIVEN_TOGETHER)
+        self.assertEqual((code, summary["status"]), (3, "diverged"))
+        self.assertRegex(errors, r"diverged at 0\.1\d* s \(drape\)")
+        self.assertRegex(errors, r"driven against each other: vertex \d+ of `sheet\[0\]` at \(.*vertex \d+ of")
+        self.assertIn("[[pins.motion]]", errors)
+        self.assertEqual(summary["message"], errors.strip())
+
+    def test_bodies_that_close_on_cloth_are_named(self):
+        code, errors, _ = self.drape(PINCHED)
+        self.assertEqual(code, 3)
+        self.assertRegex(errors, r"the bodies `(finger|thumb)` and `(finger|thumb)` close on the cloth between them")
+        self.assertRegex(errors, r"where: vertex \d+ of `sheet\[0\]`")
+        self.assertIn("contact.gap", errors)
+
     def test_cloth_that_is_held_everywhere_is_at_rest(self):
         code, errors, summary = self.drape(ALL_HELD)
         self.assertEqual((code, summary["status"], summary["residual"]), (0, "converged", 0))
@@ -159,7 +220,7 @@ until = 0.5
         stretch = summary["stretch"]
         self.assertGreater(stretch["largest"], 1.05 * stretch["max"])   # it swings back
         self.assertTrue(0 < stretch["largest_s"] < 0.5)
-        self.assertEqual(stretch["largest_panel"], "sheet")
+        self.assertEqual(stretch["largest_panel"], "sheet[0]")
         self.assertTrue(0 <= stretch["largest_triangle"] < summary["triangles"])
 
 

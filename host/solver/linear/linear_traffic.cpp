@@ -9,9 +9,14 @@
 namespace selvage {
 namespace {
 
-std::size_t matrix_bytes(const BlockPattern& pattern)
+std::size_t index_bytes(const BlockPattern& pattern)
 {
-    return std::size_t(pattern.blocks()) * (9 * sizeof(double) + sizeof(int)) + pattern.row_begin.size() * sizeof(int);
+    return (std::size_t(pattern.blocks()) + pattern.row_begin.size()) * sizeof(int);
+}
+
+std::size_t matrix_bytes(const BlockPattern& pattern, std::size_t scalar = sizeof(double))
+{
+    return std::size_t(pattern.blocks()) * 9 * scalar + index_bytes(pattern);
 }
 
 // Of one vector with three entries per row.
@@ -169,16 +174,14 @@ BlockPattern pattern_of(const Topology& topology, bool bends)
 std::size_t linear_solver_bytes(const BlockPattern& finest, const ParticleProlongations& prolongations,
                                 std::size_t scalar)
 {
-    const auto matrix = [&](const BlockPattern& pattern) {
-        return std::size_t(pattern.blocks()) * (9 * scalar + sizeof(int)) + pattern.row_begin.size() * sizeof(int);
-    };
     const std::size_t vector = 3 * scalar, diagonal = 9 * scalar;
-    std::size_t total = matrix(finest) + std::size_t(finest.rows()) * (5 * vector + diagonal);
+    std::size_t total =
+        matrix_bytes(finest, scalar) + index_bytes(finest) + std::size_t(finest.rows()) * (5 * vector + diagonal);
     if (prolongations.empty()) return total;
     BlockPattern fine = finest;
     for (const Prolongation& prolongation : prolongations) {
         BlockPattern coarse = coarse_pattern(fine, prolongation);
-        total += connection_memory(fine, prolongation, coarse.rows(), scalar) + matrix(coarse) +
+        total += connection_memory(fine, prolongation, coarse.rows(), scalar) + matrix_bytes(coarse, scalar) +
                  std::size_t(coarse.rows()) * (4 * vector + diagonal);
         fine = std::move(coarse);
     }

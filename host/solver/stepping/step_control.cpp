@@ -91,10 +91,13 @@ void StepControl::note_failure(double dt)
     failure_.longest = options_.longest;
     failure_.residual = report_.residual;
     if (failure_.fault == StepFault::blocked) {
-        failure_.obstacle = system_.cloth_contact()->obstacle(state);
-        if (failure_.obstacle)
+        ClothContact& contact = *system_.cloth_contact();
+        failure_.obstacle = contact.obstacle(state);
+        if (failure_.obstacle) {
+            failure_.obstacle_point = contact.nearest_point(state, *failure_.obstacle);
             for (int corner : failure_.obstacle->corner)
-                if (corner < 0) failure_.obstacle_body = system_.cloth_contact()->body_of_corner(corner).name;
+                if (corner < 0) failure_.obstacle_body = contact.body_of_corner(corner).name;
+        }
     }
     if (failure_.fault == StepFault::not_finite) {
         const auto finite = [&](int v) {

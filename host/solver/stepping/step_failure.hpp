@@ -29,6 +29,7 @@ struct StepFailure {
     double net_force = 0;  ///< On it [N].
     std::optional<PairCandidate> obstacle = {};  ///< The pair that bodies or held vertices would pass through first.
     std::string obstacle_body = {};              ///< The body of that pair; empty: none.
+    Vec3 obstacle_point = Vec3::Zero();          ///< Where its first side is nearest to the second [m].
 };
 
 /// Thrown where no step succeeds.

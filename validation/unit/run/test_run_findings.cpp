@@ -35,8 +35,8 @@ TEST_CASE("a garment is lost once it has fallen by half of its height, or touche
 
     const std::vector<Finding> slid = find_lost_garment(model, {0.6, 0.86, {true, true}});
     REQUIRE(slid.size() == 1);
-    CHECK_THAT(describe(slid[0]), contains_text("0.86 m") && contains_text("0.60 m high") &&
-                                      contains_text("garment.translation"));
+    CHECK_THAT(describe(slid[0]),
+               contains_text("0.86 m") && contains_text("0.60 m high") && contains_text("garment.translation"));
 
     const std::vector<Finding> beside = find_lost_garment(model, {0.6, 0.01, {false, true}});
     REQUIRE(beside.size() == 1);
@@ -50,15 +50,17 @@ TEST_CASE("a garment is lost once it has fallen by half of its height, or touche
 TEST_CASE("crossings at the end are told with their number and the first place, far away with the rounding there")
 {
     const ClothModel model = worn_model();
-    EndCrossings crossings{.counted = true, .positions = model.cloth.positions};
+    EndCrossings crossings;
+    crossings.counted = true;
+    crossings.positions = model.cloth.positions;
     CHECK(find_end_crossings(model, crossings).empty());
 
     crossings.self = {{0, 5}, {1, 6}};
     crossings.with_body = {{{2, 0}}, {}};
     const std::vector<Finding> found = find_end_crossings(model, crossings);
     REQUIRE(found.size() == 2);
-    CHECK_THAT(describe(found[0]), contains_text("2 pairs") && contains_text("triangle 0 of `sheet`") &&
-                                       contains_text("selvage check"));
+    CHECK_THAT(describe(found[0]),
+               contains_text("2 pairs") && contains_text("triangle 0 of `sheet`") && contains_text("selvage check"));
     CHECK_THAT(describe(found[1]), contains_text("`mannequin`") && contains_text("triangle 2"));
 
     for (Vec3& x : crossings.positions) x.x() += 1e6;
