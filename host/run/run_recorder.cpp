@@ -285,9 +285,10 @@ std::vector<Finding> RunRecorder::conclude(RunStatus status, double time, Phase&
     const bool complete = status == RunStatus::converged || status == RunStatus::finished;
     if (complete) append_findings(at_end, find_lost_garment(model_.cloth_model, phase, positions));
     warn(at_end);
-    for (const std::vector<Finding>* findings : {&model_.findings, static_cast<const std::vector<Finding>*>(&at_end)})
-        for (const Finding& finding : *findings)
-            if (finding.severity != Severity::note) s.warnings.push_back(describe(finding));
+    std::vector<Finding> told = model_.findings;
+    append_findings(told, at_end);
+    for (const Finding& finding : told)
+        if (finding.severity != Severity::note) s.warnings.push_back(describe(finding));
     s.peak_memory_bytes = peak_memory_bytes();
     s.wall_s = wall_seconds;
     write_summary(folder_ + "/summary.json", s);
