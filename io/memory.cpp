@@ -15,6 +15,13 @@ std::int64_t peak_memory_bytes()
     return std::int64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB.
 }
 
+std::int64_t resident_memory_bytes()
+{
+    std::int64_t whole = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> whole >> resident;
+    return resident * sysconf(_SC_PAGESIZE);
+}
+
 std::int64_t physical_memory_bytes()
 {
     std::int64_t bytes = std::int64_t(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);

@@ -42,6 +42,13 @@ public:
     BodyBvh(BodyBvh&&) noexcept;
     BodyBvh& operator=(BodyBvh&&) noexcept;
 
+    /// What so many triangles take beside the nodes of Embree's hierarchy: corners, numbers and Embree's copies
+    /// [bytes].
+    static std::size_t bytes_of(std::size_t triangles)
+    {
+        return triangles * (3 * sizeof(Vec3) + sizeof(int) + 9 * sizeof(float) + 3 * sizeof(unsigned));
+    }
+
     /// Updates the boxes to the present vertices of the surface; the structure of the tree stays.
     void refit();
 

@@ -32,6 +32,14 @@ public:
     /// Vertices at exactly the same position are treated as one; faces without area are ignored.
     explicit BodySurface(const TriangleMesh& mesh);
 
+    /// What the surface of a mesh takes [bytes]. @param deforms  it will be deformed
+    static std::size_t bytes_of(const TriangleMesh& mesh, bool deforms)
+    {
+        const std::size_t per_face = sizeof(Face) + sizeof(Vec3) + 2 * sizeof(Corners) + 2 * sizeof(std::array<int, 3>);
+        const std::size_t sides = deforms ? 3 * sizeof(Sides::value_type) : 0;
+        return mesh.faces.size() * (per_face + sides) + mesh.vertices.size() * (2 * sizeof(Vec3) + 1);
+    }
+
     /// Moves the vertices. The set of sharp edges does not change. Faces that had no area must not get one.
     /// @param vertices  as many as the mesh had [m]
     void deform(const std::vector<Vec3>& vertices);

@@ -468,4 +468,15 @@ std::size_t ClothTree::bytes() const
            candidates_.capacity() * sizeof(PairCandidate);
 }
 
+// A mesh has three edges for two faces, and a leaf has from half of what it may hold to all of it.
+std::size_t ClothTree::bytes_of(std::size_t faces, std::size_t corners)
+{
+    const std::size_t edges = 3 * faces / 2, leaves = 4 * faces / (3 * leaf_faces), nodes = 2 * leaves;
+    const std::size_t of_face = sizeof(Face) + 3 * sizeof(Vec2) + sizeof(Sweep) + sizeof(Gradients) +
+                                sizeof(std::array<double, 4>) + sizeof(std::array<int, 3>) + sizeof(int) + 2;
+    return faces * of_face + edges * (sizeof(Sweep) + 2 * sizeof(int)) +
+           nodes * (sizeof(Node) + sizeof(Sweep) + sizeof(Gradients)) +
+           corners * (4 * sizeof(Vec3) + sizeof(Sweep) + sizeof(float) + sizeof(int));
+}
+
 }  // namespace selvage

@@ -102,6 +102,8 @@ public:
     /// @throws std::invalid_argument if it is of another surface
     void set_memory(TreeMemory memory);
     std::size_t bytes() const;
+    /// What a tree of so many faces and corners will take, but for its candidates [bytes].
+    static std::size_t bytes_of(std::size_t faces, std::size_t corners);
 
 private:
     struct Sweep {  // boxes at both ends of a move; the fourth component is padding, 0 unless empty

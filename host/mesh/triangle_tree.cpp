@@ -14,7 +14,6 @@ namespace {
 
 // These affect speed only. Chosen by hand; not measured.
 struct TriangleTreeTuning {
-    static constexpr int leaf_size = 4;                // triangles per leaf
     static constexpr int serial_leaves = 512;          // one thread builds subtrees of up to this many leaves
     static constexpr std::size_t search_pieces = 256;  // node pairs from which on a search runs in parallel
 };
@@ -54,7 +53,7 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& vertices, const std::vector<
 {
     if (faces.empty()) return;
     std::iota(order_.begin(), order_.end(), 0);
-    const int leaves = (int(faces.size()) + TriangleTreeTuning::leaf_size - 1) / TriangleTreeTuning::leaf_size;
+    const int leaves = (int(faces.size()) + leaf_size - 1) / leaf_size;
     nodes_.resize(2 * std::size_t(leaves) - 1);
     build(0, 0, leaves);
 }
@@ -64,7 +63,7 @@ void TriangleTree::build(int node, int first, int leaves)
 {
     Node& n = nodes_[node];
     n.first = first;
-    n.count = std::min(leaves * TriangleTreeTuning::leaf_size, int(order_.size()) - first);
+    n.count = std::min(leaves * leaf_size, int(order_.size()) - first);
     if (leaves == 1) {
         for (int k = first; k < first + n.count; ++k) boxes_[k] = box_of(order_[k]);
         n.box = boxes_[first];
@@ -78,7 +77,7 @@ void TriangleTree::build(int node, int first, int leaves)
     for (int k = first; k < first + n.count; ++k) span.extend(middle(order_[k]));
     int axis = 0;
     span.sizes().maxCoeff(&axis);
-    const int left = leaves / 2, split = first + left * TriangleTreeTuning::leaf_size;
+    const int left = leaves / 2, split = first + left * leaf_size;
     std::nth_element(order_.begin() + first, order_.begin() + split, order_.begin() + first + n.count,
                      [&](int f, int g) {
                          const double a = middle(f)[axis], b = middle(g)[axis];

@@ -18,6 +18,12 @@ public:
     /// @param vertices  finite positions [m]; like the faces they must outlive this object
     TriangleTree(const std::vector<Vec3>& vertices, const std::vector<Face>& faces);
 
+    /// What the tree of so many faces takes, beside vertices and faces [bytes].
+    static std::size_t bytes_of(std::size_t faces)
+    {
+        return faces * (sizeof(int) + sizeof(Box) + 2 * sizeof(Node) / leaf_size);
+    }
+
     const Face& face(int f) const { return faces_[f]; }
     const Vec3& vertex(int v) const { return vertices_[v]; }
     Triangle triangle(int f) const
@@ -45,6 +51,7 @@ private:
     };
     using NodePair = std::array<int, 2>;
     struct Search;
+    static constexpr int leaf_size = 4;  // triangles per leaf; chosen by hand, not measured
 
     Box box_of(int face) const;
     void build(int node, int first, int leaves);

@@ -10,6 +10,7 @@
 #include <tbb/global_control.h>
 
 #include "host/run/ended_run.hpp"
+#include "host/run/failure_report.hpp"
 #include "host/run/interrupt.hpp"
 #include "host/run/measure.hpp"
 #include "host/run/phase_memory.hpp"
@@ -49,6 +50,7 @@ void DrapeRun::begin()
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, false);
     if (!options_.notice.empty()) recorder_->say(options_.notice);
     progress_.counters.phases["assemble"] = elapsed();
+    recorder_->warn(model_.findings);
     start_afresh(plan_.coarse_start ? RunStage::coarse : plan_.phases.front().stage);
 }
 
@@ -74,6 +76,7 @@ bool DrapeRun::resume()
     start_phase(progress_.stage, model_.cloth_model.cloth.positions, {});
     load_phase(checkpoint, checkpoint_path(), *phase_, *integrator_);
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, true);
+    recorder_->warn(model_.findings);
     recorder_->open_phase(progress_.stage, phase_->topology(), progress_.frames);
     recorder_->set_frame_progress(progress_.frame);
     return true;
@@ -120,9 +123,20 @@ void DrapeRun::note_stability(const StepEvent& event)
             settings_.drape.step.longest, word_of(settings_.integrator), event.stable_step, event.shortest));
 }
 
+void DrapeRun::note_stretch(const StepEvent& event)
+{
+    if (progress_.stage != RunStage::drape || event.dt == 0) return;
+    FaceStretch& largest = progress_.counters.largest;
+    FaceStretch now = largest_stretch(model_.cloth_model.cloth, phase_->positions(), largest.stretch);
+    if (now.face < 0) return;
+    now.time = event.time;
+    largest = now;
+}
+
 bool DrapeRun::after_step(const StepEvent& event)
 {
     note_stability(event);
+    note_stretch(event);
     RunCounters& counters = progress_.counters;
     ++counters.steps;
     counters.newton_iterations += event.newton_iterations;
@@ -272,14 +286,18 @@ RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
     if (progress_.stage != RunStage::press) recorder_->write_frame(*phase_, event, elapsed(), true);
     recorder_->close_phase();
     const double bodies_time = progress_.stage == RunStage::sew ? 0 : time;  // they wait for the garment
-    recorder_->conclude(status, bodies_time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
-                        progress_.stability, progress_.coarse.stages, profile_, residual, elapsed(), message);
+    const std::vector<Finding> at_end =
+        recorder_->conclude(status, bodies_time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
+                            progress_.stability, progress_.coarse.stages, profile_, residual, elapsed(), message);
     const bool complete = status == RunStatus::converged || status == RunStatus::finished;
     if (complete && !settings_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());
     int code = complete ? 0 : 4;
     if (status == RunStatus::diverged) code = 3;
     if (status == RunStatus::interrupted) code = interrupt_exit_code();
-    return {status, code, message};
+    std::string told = message;
+    for (const Finding& finding : findings_that_mattered(model_.findings, complete, at_end))
+        told += (told.empty() ? "" : "\n") + ("warned of at the start: " + describe(finding));
+    return {status, code, told};
 }
 
 RunOutcome DrapeRun::conclude_stopped()
@@ -287,24 +305,17 @@ RunOutcome DrapeRun::conclude_stopped()
     if (interrupt_requested())
         return conclude(RunStatus::interrupted, "interrupted: the state is saved, --resume goes on from here");
     return conclude(RunStatus::time_limit,
-                    fmt::format("stopped after {:.3g} s (solver.max_wall); --resume goes on", settings_.max_wall));
+                    fmt::format("stopped after {:.3g} s (solver.max_wall) at {:.4g} s of simulated time ({}): relative "
+                                "force residual {:.2e}; --resume goes on",
+                                settings_.max_wall, phase_->system().clock().time, text_of(progress_.stage),
+                                phase_->system().residual()));
 }
 
 std::string DrapeRun::why_not_done() const
 {
     if (progress_.stage == RunStage::drape)
-        return fmt::format("not at rest after {:.1f} s (solver.max_time): relative force residual {:.2e}, asked {:.2e}",
-                           phase_->system().clock().time, progress_.draping.residual, settings_.drape.tolerance);
-    const Cloth& cloth = model_.cloth_model.cloth;
-    const std::vector<double> gaps = measure_seams(cloth, phase_->positions());
-    const auto worst = std::max_element(gaps.begin(), gaps.end());
-    const Seam& seam = cloth.seams[std::size_t(worst - gaps.begin())];
-    const auto side = [&](int index) {
-        const OutlineSamples& edge = cloth.outline[index];
-        return cloth.panels[edge.panel].name + "[" + std::to_string(edge.edge) + "]";
-    };
-    return fmt::format("the seam of {} and {} is still open by {:.1f} mm after {:.1f} s (seams.max_time)",
-                       side(seam.side_a), side(seam.side_b), 1000 * *worst, settings_.cloth.sew.max_time);
+        return describe(explain(unrest_facts(model_, *phase_, progress_.draping.residual, settings_.drape.tolerance)));
+    return describe(explain(open_seam_facts(model_, *phase_)));
 }
 
 RunOutcome DrapeRun::execute()
@@ -325,8 +336,10 @@ RunOutcome DrapeRun::execute()
                          fmt::format("at most the stability limit of {}, {:.3g} s at {:.3g} s of simulated time, as "
                                      "solver.unstable_step is refuse",
                                      word_of(settings_.integrator), error.limit, phase_->system().clock().time));
-    } catch (const DivergenceError& error) {
-        return conclude(RunStatus::diverged, std::string("diverged: ") + error.what());
+    } catch (const StepFailureError& error) {
+        const std::string message = describe(
+            explain(divergence_facts(model_, *phase_, text_of(progress_.stage), error.failure, integrator_->info())));
+        return conclude(RunStatus::diverged, message);
     }
 }
 

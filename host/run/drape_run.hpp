@@ -40,6 +40,7 @@ private:
     void hear_attempt(bool undone);
     bool must_stop() const;
     void note_stability(const StepEvent& event);
+    void note_stretch(const StepEvent& event);
     double elapsed() const;
     RunOutcome conclude_at_rest();
     RunOutcome conclude(RunStatus status, const std::string& message);

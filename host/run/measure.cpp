@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "host/parallel/launch.hpp"
+
 namespace selvage {
 namespace {
 
@@ -53,6 +55,20 @@ StretchMeasure measure_stretch(const std::vector<std::array<Vec2, 3>>& rest_corn
     std::nth_element(strains.begin(), at, strains.end());
     measure.p99 = *at;
     return measure;
+}
+
+FaceStretch largest_stretch(const Cloth& cloth, const std::vector<Vec3>& positions, double above)
+{
+    const std::vector<Vec2>& u = cloth.panel_coordinates;
+    const auto larger_of = [&](int face) {
+        const Face& f = cloth.faces[face];
+        return principal_stretches({u[f[0]], u[f[1]], u[f[2]]}, f, positions)[1] - 1;
+    };
+    FaceStretch largest{.stretch = max_items(int(cloth.faces.size()), larger_of)};
+    if (!(largest.stretch > above)) return largest;
+    largest.face = 0;
+    while (larger_of(largest.face) != largest.stretch) ++largest.face;
+    return largest;
 }
 
 std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<Vec3>& x)

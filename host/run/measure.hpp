@@ -13,6 +13,13 @@ struct StretchMeasure {
     double p99 = 0;  ///< Magnitude below which 99 % of the principal stretches lie.
 };
 
+/// A principal stretch minus one [1], and whose it is.
+struct FaceStretch {
+    double stretch = 0;
+    int face = -1;    ///< Of the cloth; -1: none.
+    double time = 0;  ///< [s]
+};
+
 /// How much sewing and draping changed a panel: |now - flat| / flat [1].
 struct PanelMeasure {
     std::string name;
@@ -24,6 +31,10 @@ struct PanelMeasure {
 /// @param positions     [m]
 StretchMeasure measure_stretch(const std::vector<std::array<Vec2, 3>>& rest_corners, const std::vector<Face>& faces,
                                const std::vector<Vec3>& positions);
+
+/// Finds the largest principal stretch of all faces, on all cores.
+/// @param above  a smaller one is not looked for, and the result has no face
+FaceStretch largest_stretch(const Cloth& cloth, const std::vector<Vec3>& positions, double above);
 
 std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<Vec3>& positions);
 

@@ -102,7 +102,7 @@ void visit_progress(Progress& progress, const Visit& visit)
     visit_steps(press_steps, "pressing", visit);
     visit_draping(draping, visit);
     // Seconds have names of their own, integrators are words.
-    auto& [steps, newton_iterations, linear_iterations, simulated, seconds, integrators] = counters;
+    auto& [steps, newton_iterations, linear_iterations, simulated, seconds, integrators, largest] = counters;
     visit("counters.steps", steps);
     visit("counters.newton_iterations", newton_iterations);
     visit("counters.linear_iterations", linear_iterations);
@@ -111,6 +111,10 @@ void visit_progress(Progress& progress, const Visit& visit)
     visit("frame.iterations", iterations_since_frame);
     visit("frame.relaxed", relaxed_since_frame);
     visit("ended", ended);
+    auto& [stretch, face, stretch_time] = largest;
+    visit("largest.stretch", stretch);
+    visit("largest.face", face);
+    visit("largest.time", stretch_time);
     visit("wall_seconds", wall_seconds);
     visit("frames", frames);
 }

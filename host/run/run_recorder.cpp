@@ -8,6 +8,7 @@
 
 #include "host/mesh/self_intersections.hpp"
 #include "host/model/body.hpp"
+#include "host/model/cloth_place.hpp"
 #include "host/run/cloth_picture.hpp"
 #include "host/run/measure.hpp"
 #include "io/errors.hpp"
@@ -52,6 +53,33 @@ TrajectoryLayout trajectory_layout(const RunSettings& settings, const Cloth& clo
     layout.version = version;
     layout.grid = settings.output.precision;
     return layout;
+}
+
+// Of the cloth in its last frame. @param so_far  the largest stretch of the drape before that
+void add_measures(RunSummary& s, const Cloth& cloth, const Phase& phase, const std::vector<Vec3>& positions,
+                  const BodyQuery* query, const FaceStretch& so_far)
+{
+    const Energies energies = phase.system().energies();
+    s.energy = {energies.membrane, energies.bending, energies.gravity, energies.contact, energies.kinetic};
+    FaceStretch largest = largest_stretch(cloth, positions, so_far.stretch);
+    largest.time = phase.system().clock().time;
+    if (largest.face < 0) largest = so_far;
+    if (largest.face >= 0) {
+        s.stretch.largest = largest.stretch;
+        s.stretch.largest_time = largest.time;
+        s.stretch.largest_triangle = largest.face;
+        s.stretch.largest_panel = panel_of_face(cloth, largest.face).name;
+    }
+    if (query && !query->empty()) {
+        const State& state = phase.state();
+        const BodyGap gap = query->measure(state.pos.data(), state.size.vertex_stride, state.size.vertex_count);
+        s.body_max_penetration = gap.max_penetration_m;
+        s.body_min_gap = gap.min_gap_m;
+    }
+    s.seam_count = int(cloth.seams.size());
+    if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
+    for (const PanelMeasure& p : measure_panels(cloth, positions))
+        s.panels.push_back({p.name, p.area_error, p.boundary_error});
 }
 
 }  // namespace
@@ -185,30 +213,35 @@ void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topol
     draw_cloth(folder_ + "/preview.png", model_.cloth_model.cloth, bodies, positions, topology, options);
 }
 
-// Of the last frame as it is written, where the files allow it to be measured again.
-void RunRecorder::measure_written(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
-                                  const std::vector<TriangleMesh>& bodies) const
+void RunRecorder::warn(const std::vector<Finding>& findings)
 {
-    const TraceScope scope("measure_written");
-    const double spacing = grid_spacing(settings_.output.precision);
-    std::vector<Vec3> written;
-    for (const Vec3& x : positions) written.push_back(written_position(x, spacing).cast<double>());
-    if (!std::all_of(written.begin(), written.end(), [](const Vec3& x) { return x.allFinite(); })) return;
-    const Cloth& cloth = model_.cloth_model.cloth;
-    const std::vector<Face> faces = shared_faces(cloth, topology);
-    const StretchMeasure stretch = measure_stretch(rest_corners(cloth), faces, written);
-    summary.stretch = {stretch.min, stretch.max, stretch.p99};
-    summary.self_intersections = std::int64_t(self_intersections(written, faces).size());
-    if (bodies.empty()) return;
-    summary.body_intersections = 0;
-    for (const TriangleMesh& body : bodies)
-        summary.body_intersections += std::int64_t(mutual_intersections(written, faces, body).size());
+    for (const Finding& finding : findings)
+        if (finding.severity != Severity::note) progress_->warning("warning: " + describe(finding));
 }
 
-void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
-                           const RunCounters& counters, const StabilityUse& stability,
-                           const std::vector<CoarseStage>& coarse_stages, const Profile& profile, double residual,
-                           double wall_seconds, const std::string& message)
+// Of the last frame as it is written, where the files allow it to be looked at again.
+EndCrossings RunRecorder::find_crossings(const std::vector<Vec3>& positions, const Topology& topology,
+                                         const std::vector<TriangleMesh>& bodies) const
+{
+    const TraceScope scope("find_crossings");
+    const double spacing = grid_spacing(settings_.output.precision);
+    EndCrossings crossings;
+    for (const Vec3& x : positions) crossings.positions.push_back(written_position(x, spacing).cast<double>());
+    const auto is_finite = [](const Vec3& x) { return x.allFinite(); };
+    if (!std::all_of(crossings.positions.begin(), crossings.positions.end(), is_finite)) return crossings;
+    crossings.counted = true;
+    const std::vector<Face> faces = shared_faces(model_.cloth_model.cloth, topology);
+    crossings.self = self_intersections(crossings.positions, faces);
+    for (const TriangleMesh& body : bodies)
+        crossings.with_body.push_back(mutual_intersections(crossings.positions, faces, body));
+    return crossings;
+}
+
+std::vector<Finding> RunRecorder::conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan,
+                                           const BodyQuery* query, const RunCounters& counters,
+                                           const StabilityUse& stability, const std::vector<CoarseStage>& coarse_stages,
+                                           const Profile& profile, double residual, double wall_seconds,
+                                           const std::string& message)
 {
     const std::vector<Vec3> positions = phase.positions();
     std::vector<TriangleMesh> bodies;
@@ -240,24 +273,29 @@ void RunRecorder::conclude(RunStatus status, double time, Phase& phase, const Ru
         s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds,
                                   c.intersections, c.used});
     s.residual = residual;
-    const Energies energies = phase.system().energies();
-    s.energy = {energies.membrane, energies.bending, energies.gravity, energies.contact, energies.kinetic};
-    if (query && !query->empty()) {
-        const State& state = phase.state();
-        const BodyGap gap = query->measure(state.pos.data(), state.size.vertex_stride, state.size.vertex_count);
-        s.body_max_penetration = gap.max_penetration_m;
-        s.body_min_gap = gap.min_gap_m;
+    add_measures(s, cloth, phase, positions, query, counters.largest);
+    const EndCrossings crossings = find_crossings(positions, phase.topology(), bodies);
+    if (crossings.counted) {
+        const std::vector<Face> faces = shared_faces(cloth, phase.topology());
+        const StretchMeasure stretch = measure_stretch(rest_corners(cloth), faces, crossings.positions);
+        s.stretch.min = stretch.min;
+        s.stretch.max = stretch.max;
+        s.stretch.p99 = stretch.p99;
+        s.self_intersections = std::int64_t(crossings.self.size());
     }
-    measure_written(s, positions, phase.topology(), bodies);
-    s.seam_count = int(cloth.seams.size());
-    if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
-    for (const PanelMeasure& p : measure_panels(cloth, positions))
-        s.panels.push_back({p.name, p.area_error, p.boundary_error});
-    for (const Finding& finding : model_.findings)
+    if (crossings.counted && !bodies.empty()) s.body_intersections = crossings.count_with_bodies();
+    std::vector<Finding> at_end = find_end_crossings(model_.cloth_model, crossings);
+    const bool complete = status == RunStatus::converged || status == RunStatus::finished;
+    if (complete) append_findings(at_end, find_lost_garment(model_.cloth_model, phase, positions));
+    warn(at_end);
+    std::vector<Finding> told = model_.findings;
+    append_findings(told, at_end);
+    for (const Finding& finding : told)
         if (finding.severity != Severity::note) s.warnings.push_back(describe(finding));
     s.peak_memory_bytes = peak_memory_bytes();
     s.wall_s = wall_seconds;
     write_summary(folder_ + "/summary.json", s);
+    return at_end;
 }
 
 }  // namespace selvage

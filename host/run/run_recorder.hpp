@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "host/run/measure.hpp"
 #include "host/run/progressive.hpp"
 #include "host/run/run.hpp"
+#include "host/run/run_findings.hpp"
 #include "host/scene/plan.hpp"
 #include "host/scene/run_settings.hpp"
 #include "host/scene/scene_model.hpp"
@@ -26,6 +28,7 @@ struct RunCounters {
     double simulated = 0;                  ///< All phases [s].
     std::map<std::string, double> phases;  ///< Wall seconds of each phase.
     std::vector<std::string> integrators;  ///< That have moved the cloth while it draped, in their order.
+    FaceStretch largest;                   ///< Stretch after any step of the drape.
 };
 
 /// What has happened since the last frame was written.
@@ -52,6 +55,8 @@ public:
     void report(RunStage stage, const StepEvent& event, int steps);
     /// Writes a line of text for the user.
     void say(const std::string& text) { progress_->message(text); }
+    /// Writes what was found as warnings, also if the run is quiet; notes are left out.
+    void warn(const std::vector<Finding>& findings);
     /// Writes a frame if one is due at this time, or if `force` and the cloth has moved since the last one.
     void write_frame(Phase& phase, const StepEvent& event, double wall_seconds, bool force);
     const FrameProgress& frame_progress() const { return since_frame_; }
@@ -60,17 +65,18 @@ public:
 
     /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
     /// @param time  at which the bodies are shown [s]
-    void conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan, const BodyQuery* query,
-                  const RunCounters& counters, const StabilityUse& stability,
-                  const std::vector<CoarseStage>& coarse_stages, const Profile& profile, double residual,
-                  double wall_seconds, const std::string& message);
+    /// @returns what is wrong with the end of the run; the user has been warned of it
+    std::vector<Finding> conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan,
+                                  const BodyQuery* query, const RunCounters& counters, const StabilityUse& stability,
+                                  const std::vector<CoarseStage>& coarse_stages, const Profile& profile,
+                                  double residual, double wall_seconds, const std::string& message);
 
 private:
     double frame_time_after(double time) const;
     void write_meshes(const std::vector<Vec3>& positions, const Topology& topology,
                       const std::vector<TriangleMesh>& bodies);
-    void measure_written(RunSummary& summary, const std::vector<Vec3>& positions, const Topology& topology,
-                         const std::vector<TriangleMesh>& bodies) const;
+    EndCrossings find_crossings(const std::vector<Vec3>& positions, const Topology& topology,
+                                const std::vector<TriangleMesh>& bodies) const;
     void draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);
 
     const RunSettings& settings_;

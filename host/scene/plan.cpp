@@ -9,6 +9,7 @@
 #include "host/model/body.hpp"
 #include "host/scene/features.hpp"
 #include "host/scene/run_settings.hpp"
+#include "host/solver/linear/linear_traffic.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/terms/cloth_state.hpp"
 #include "host/solver/terms/velocity_filters.hpp"
@@ -19,18 +20,23 @@ namespace {
 // Entries of the plate's matrix per hinge on irregular meshes, where it is fullest.
 constexpr int couplings_per_hinge = 28;
 
-std::size_t solver_estimate(const Scene& scene, const Cloth& cloth, const mesh_sizes& size, bool levels)
+// Of the matrix with its places and the preconditioner; see LinearSolver.
+std::size_t solver_bytes(const Scene& scene, const ClothModel& model, const Topology& topology, const mesh_sizes& size,
+                         const PhaseOptions& options, const FieldSet& fields)
 {
-    const std::size_t scalar = solve_precision(scene, cloth) == PrecisionChoice::in_float ? 4 : 8;
-    const std::size_t blocks = std::size_t(size.vertex_count) + 2 * std::size_t(size.face_count) * 3 / 2 +
-                               2 * std::size_t(size.hinge_count) + 2 * std::size_t(size.spring_count);
-    const std::size_t matrix = blocks * (9 * scalar + 4) + std::size_t(size.vertex_count) * (9 + 15) * scalar;
+    const std::size_t scalar = solve_precision(scene, model.cloth) == PrecisionChoice::in_float ? 4 : 8;
     std::size_t places = 0;
-#define ADD_PLACES(kind, corners) places += sizeof(std::uint16_t) * corners * corners * std::size_t(size.kind##_count);
+#define ADD_PLACES(kind, corners)                 \
+    if (fields[std::size_t(Field::kind##_slots)]) \
+        places += sizeof(std::uint16_t) * corners * corners * std::size_t(size.kind##_count);
     ELEMENT_KINDS(ADD_PLACES)
 #undef ADD_PLACES
-    // Coarse matrices are a third of the finest one; the plan of their products holds nine entries per fine block.
-    return matrix + places + (levels ? matrix / 3 + 9 * 4 * blocks * 4 / 3 : 0);
+    ParticleProlongations prolongations;
+    if (options.linear.preconditioner == Preconditioner::multigrid)
+        prolongations = particle_prolongations(model, topology, options.joined);
+    const std::size_t turns = fields[std::size_t(Field::hinge_slope)] ? 2 * std::size_t(size.hinge_count) * scalar : 0;
+    return linear_solver_bytes(pattern_of(topology, fields[std::size_t(Field::hinge_slots)]), prolongations, scalar) +
+           places + turns;
 }
 
 template <class Kernels>
@@ -47,7 +53,8 @@ PhasePlan plan_phase(const Scene& scene, const SceneModel& model, RunStage stage
 {
     PhasePlan phase;
     phase.stage = stage;
-    phase.params = phase_params(scene, model, stage == RunStage::sew);
+    const PhaseOptions options = phase_options(scene, model, stage == RunStage::sew);
+    phase.params = options.params;
     phase.queries_bodies = meets_bodies(phase.params);
     const ClothModel& cloth = model.cloth_model;
     Topology topology = make_topology(cloth.cloth, stage != RunStage::sew);
@@ -58,8 +65,10 @@ PhasePlan plan_phase(const Scene& scene, const SceneModel& model, RunStage stage
     add_launches(all_terms(), size, phase);
     add_launches(all_velocity_filters(), size, phase);
     if (phase.queries_bodies) phase.launches.push_back({"body_query", "vertex", size.vertex_count, 0});
-    phase.field_bytes = field_bytes(size, required_fields(phase.params));
-    phase.solver_bytes = solver_estimate(scene, cloth.cloth, size, !cloth.coarser.empty());
+    const FieldSet fields = required_fields(phase.params);
+    phase.field_bytes = field_bytes(size, fields);
+    phase.solver_bytes = solver_bytes(scene, cloth, topology, size, options, fields);
+    phase.memory = phase_memory({cloth, topology, size, fields, phase.params, phase.solver_bytes});
     return phase;
 }
 
@@ -75,6 +84,26 @@ void list_feature(std::string_view name, const FeatureCase& with, RunPlan& plan,
         plan.skipped.push_back({std::string(name), reason});
     else if (is_listed)
         plan.active.emplace_back(name);
+}
+
+// What is there at once when a run takes most: the larger phase, with the coarser cloth that is draped meanwhile, and
+// the results of its end.
+std::vector<MemoryPart> whole_memory(const Scene& scene, const SceneModel& model, const RunPlan& plan)
+{
+    const auto less = [](const PhasePlan& a, const PhasePlan& b) {
+        return total_bytes(a.memory) < total_bytes(b.memory);
+    };
+    std::vector<MemoryPart> memory{present_memory()};
+    const PhasePlan& largest = *std::max_element(plan.phases.begin(), plan.phases.end(), less);
+    memory.insert(memory.end(), largest.memory.begin(), largest.memory.end());
+    std::vector<MemoryPart> last = end_memory(scene, model.cloth_model);
+    if (plan.coarse_start) {
+        const SceneModel coarse = coarser_model(model, 0);
+        const MemoryPart part{"coarse_start", total_bytes(plan_phase(scene, coarse, RunStage::drape).memory)};
+        if (part.bytes > total_bytes(last)) last = {part};
+    }
+    memory.insert(memory.end(), last.begin(), last.end());
+    return memory;
 }
 
 bool is_active(const RunPlan& plan, std::string_view feature)
@@ -98,12 +127,8 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
     plan.embree = is_active(plan, "embree");
     plan.coarse_start = is_active(plan, "coarse_start");
 
-    std::size_t body_bytes = 0;
-    for (const Body& body : model.cloth_model.bodies)
-        body_bytes += body.mesh.faces.size() * 400 + (body.motion ? body.motion->bytes() : 0);
-    for (const PhasePlan& phase : plan.phases)
-        plan.peak_bytes = std::max(plan.peak_bytes, phase.field_bytes + phase.solver_bytes);
-    plan.peak_bytes += model.cloth_model.cloth.positions.size() * 500 + body_bytes + (std::size_t(100) << 20);
+    plan.memory = whole_memory(scene, model, plan);
+    plan.peak_bytes = total_bytes(plan.memory);
     return plan;
 }
 

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/memory_plan.hpp"
 #include "host/scene/run_stage.hpp"
 #include "host/scene/scene_model.hpp"
 #include "host/solver/terms/params.hpp"
@@ -27,7 +28,8 @@ struct PhasePlan {
     bool queries_bodies = false;
     std::vector<PlannedLaunch> launches;
     std::size_t field_bytes = 0;   ///< State arrays.
-    std::size_t solver_bytes = 0;  ///< Matrix, vectors and coarser levels, estimated.
+    std::size_t solver_bytes = 0;  ///< Matrix, vectors and coarser levels.
+    std::vector<MemoryPart> memory;
 };
 
 struct RunPlan {
@@ -35,9 +37,10 @@ struct RunPlan {
     std::vector<std::string> integrators;  ///< See drape_integrators.
     std::vector<std::string> active;       ///< Terms and devices in use in any phase.
     std::vector<SkippedFeature> skipped;
-    bool embree = false;         ///< A ray tracing device is made, for bodies of meshes or the picture.
-    bool coarse_start = false;   ///< Coarser cloths are draped first.
-    std::size_t peak_bytes = 0;  ///< Of the phase that needs most, with meshes and queries.
+    bool embree = false;             ///< A ray tracing device is made, for bodies of meshes or the picture.
+    bool coarse_start = false;       ///< Coarser cloths are draped first.
+    std::vector<MemoryPart> memory;  ///< When most is needed.
+    std::size_t peak_bytes = 0;      ///< The sum of it.
 };
 
 /// Decides from the scene which terms run in which phase; what the scene lacks is not allocated and not launched.

@@ -42,6 +42,8 @@ std::string plan_json(const Scene& scene, const SceneModel& model, const RunPlan
     for (const SkippedFeature& skipped : plan.skipped)
         json["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});
     json["embree"] = plan.embree;
+    json["memory"] = nlohmann::json::array();
+    for (const MemoryPart& part : plan.memory) json["memory"].push_back({{"name", part.name}, {"bytes", part.bytes}});
     json["peak_bytes"] = plan.peak_bytes;
     json["warnings"] = json["notes"] = nlohmann::json::array();
     for (const Finding& finding : model.findings) json[list_of(finding)].push_back(describe(finding));
@@ -71,6 +73,8 @@ std::string plan_text(const Scene& scene, const SceneModel& model, const RunPlan
     for (const SkippedFeature& skipped : plan.skipped)
         text += fmt::format("  {:<14} {}\n", skipped.name, skipped.reason);
     text += fmt::format("\nmemory of the whole run: about {:.0f} MiB\n", mebibytes(plan.peak_bytes));
+    for (const MemoryPart& part : plan.memory)
+        text += fmt::format("  {:<17} {:>9.1f} MiB\n", part.name, mebibytes(part.bytes));
     for (const Finding& finding : model.findings)
         text += (finding.severity == Severity::note ? "note: " : "warning: ") + describe(finding) + "\n";
     return text;

@@ -13,6 +13,7 @@
 #include "host/garment/catalogue.hpp"
 #include "host/garment/sheet.hpp"
 #include "host/model/cloth_model.hpp"
+#include "host/model/cloth_place.hpp"
 #include "host/model/prolongation.hpp"
 #include "host/parallel/trace.hpp"
 #include "host/scene/body_model.hpp"
@@ -37,16 +38,45 @@ constexpr double sliver = 0.1;  // of a typical edge: triangles less high are to
 constexpr double ripple = 1e-4;
 constexpr int ripple_waves = 7;
 
-double least_height(const Cloth& cloth)
+struct LeastHeight {
+    double height = std::numeric_limits<double>::infinity();  // [m]
+    int face = 0;
+};
+
+LeastHeight least_height(const Cloth& cloth)
 {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Face& f : cloth.faces) {
+    LeastHeight least;
+    for (int face = 0; face < int(cloth.faces.size()); ++face) {
+        const Face& f = cloth.faces[face];
         const Vec2 a = cloth.panel_coordinates[f[1]] - cloth.panel_coordinates[f[0]];
         const Vec2 b = cloth.panel_coordinates[f[2]] - cloth.panel_coordinates[f[0]];
         const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()}));
-        least = std::min(least, std::abs(a.x() * b.y() - a.y() * b.x()) / longest);
+        const double height = std::abs(a.x() * b.y() - a.y() * b.x()) / longest;
+        if (height < least.height) least = {height, face};
     }
     return least;
+}
+
+// What a run cannot do as it is meant.
+void find_limits(const Scene& scene, SceneModel& model)
+{
+    const Cloth& cloth = model.cloth_model.cloth;
+    const LeastHeight least = least_height(cloth);
+    model.least_height = least.height;
+    if (scene.contact.self && least.height < sliver * model.edge_length)
+        model.findings.push_back(
+            {"triangle",
+             {},
+             fmt::format(
+                 "the narrowest triangle, {}, is {:.2g} m high, where edges are {:.2g} m long: cloth presses on "
+                 "cloth from less than that height only, in the whole scene",
+                 describe_face(cloth, least.face, cloth.positions), least.height, model.edge_length),
+             "mesh that place without slivers, or layers rest nearer to each other than contact.gap asks"});
+    if (cloth.pinned.size() == cloth.positions.size())
+        model.findings.push_back(
+            {"pins", scene.place("pins"),
+             fmt::format("all {} vertices are held: no cloth is free to move", cloth.positions.size()),
+             "leave some vertices free"});
 }
 
 Pattern read_pattern(const Scene& scene)
@@ -195,14 +225,7 @@ SceneModel build_scene_model(const Scene& scene)
         append_findings(result.findings, examine_pattern(pattern, result.cloth_model.cloth, scene.garment.resolution));
     result.sews = !result.cloth_model.cloth.seam_pairs.empty();
     result.edge_length = typical_edge(result.cloth_model.cloth);
-    result.least_height = least_height(result.cloth_model.cloth);
-    if (scene.contact.self && result.least_height < sliver * result.edge_length)
-        result.findings.push_back(
-            {"triangle",
-             {},
-             fmt::format("the narrowest triangle is {:.2g} m high, where edges are {:.2g} m long: cloth "
-                         "presses on cloth from less than that height only",
-                         result.least_height, result.edge_length)});
+    find_limits(scene, result);
     append_findings(result.findings, examine_scene(scene, result.cloth_model, result.edge_length));
     if (std::optional<Finding> meeting = find_meeting_pins(result.cloth_model.cloth, scene))
         result.findings.push_back(std::move(*meeting));
@@ -225,7 +248,7 @@ SceneModel coarser_model(const SceneModel& model, std::size_t level)
                           whole.bodies};
     result.sews = model.sews;
     result.edge_length = typical_edge(result.cloth_model.cloth);
-    result.least_height = least_height(result.cloth_model.cloth);
+    result.least_height = least_height(result.cloth_model.cloth).height;
     return result;
 }
 

@@ -138,7 +138,11 @@ void ProgressReport::clear_live_line()
 
 void ProgressReport::message(const std::string& text)
 {
-    if (options_.quiet) return;
+    if (!options_.quiet) warning(text);
+}
+
+void ProgressReport::warning(const std::string& text)
+{
     clear_live_line();
     std::fprintf(stderr, "%s\n", text.c_str());
 }

@@ -63,6 +63,8 @@ public:
 
     /// Writes a line of text to stderr without overwriting the line that is updated in place; nothing if quiet.
     void message(const std::string& text);
+    /// The same for what must be known: `quiet` does not silence it.
+    void warning(const std::string& text);
 
 private:
     double elapsed() const;

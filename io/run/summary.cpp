@@ -76,7 +76,11 @@ void add_state(Json& json, const RunSummary& summary)
                       {"kinetic_J", number(summary.energy.kinetic)}};
     json["stretch"] = {{"min", number(summary.stretch.min)},
                        {"max", number(summary.stretch.max)},
-                       {"p99", number(summary.stretch.p99)}};
+                       {"p99", number(summary.stretch.p99)},
+                       {"largest", number(summary.stretch.largest)},
+                       {"largest_s", number(summary.stretch.largest_time)},
+                       {"largest_panel", summary.stretch.largest_panel},
+                       {"largest_triangle", count(summary.stretch.largest_triangle)}};
     json["body"] = {{"max_penetration_m", number(summary.body_max_penetration)},
                     {"min_gap_m", number(summary.body_min_gap)},
                     {"intersections", count(summary.body_intersections)}};

@@ -79,7 +79,10 @@ struct RunSummary {
     } energy;  ///< [J]
     struct Stretch {
         double min = unknown, max = unknown, p99 = unknown;
-    } stretch;                                                      ///< Principal stretch - 1.
+        double largest = unknown, largest_time = unknown;  ///< Over the whole drape, and when that was [s].
+        std::string largest_panel;
+        int largest_triangle = -1;  ///< Of the cloth.
+    } stretch;                      ///< Principal stretch - 1; the first three of the last frame.
     double body_max_penetration = unknown, body_min_gap = unknown;  ///< [m]
     std::int64_t self_intersections = -1, body_intersections = -1;  ///< Pairs of triangles in the last frame.
     int seam_count = -1;

@@ -39,6 +39,8 @@ public:
     double search_radius() const override { return gap_ + margin_; }
     int contact_count() const override { return contact_count_; }
     void set_contact_count(int count) { contact_count_ = count; }  ///< That of planes from a checkpoint.
+    /// Per particle, the body whose surface was nearest within search_radius() at the last update; -1: none.
+    const std::vector<int>& body_of_vertex() const { return body_of_vertex_; }
 
     double time() const { return query_.time(); }              ///< At which the bodies are [s].
     double motion_end() const { return query_.motion_end(); }  ///< See BodyQuery.

@@ -93,6 +93,16 @@ bool ClothContact::advance_boundary(State& state, const MovingBoundary::Follow& 
     return boundary_.is_pending();
 }
 
+Vec3 ClothContact::nearest_point(const State& state, const PairCandidate& pair) const
+{
+    const PairCorners x =
+        StraightStep{state.pos, nullptr, state.size.vertex_stride, boundary_.corners()}.start_of(pair);
+    const pair_weights weights = closest_weights(x, pair.edges);
+    Vec3 point = Vec3::Zero();
+    for (int k = 0; k < (pair.edges ? 2 : 1); ++k) point += weights.w[k] * x[k];
+    return point;
+}
+
 void ClothContact::settle(State& state, const Params& params)
 {
     tangles_.update(state, boundary_.corners());

@@ -69,6 +69,11 @@ public:
     bool advance_boundary(State& state, const MovingBoundary::Follow& follow);
     /// True while they are not yet where they are to be.
     bool boundary_is_pending() const { return boundary_.is_pending(); }
+    /// See MovingBoundary.
+    std::optional<PairCandidate> obstacle(const State& state) { return boundary_.obstacle(state, filter_); }
+    /// Where the first side of a pair is nearest to the second [m].
+    Vec3 nearest_point(const State& state, const PairCandidate& pair) const;
+    const Body& body_of_corner(int corner) const { return boundary_.body_of_corner(corner); }
     /// Puts bodies where they are at a time, at the start or when a step is given up.
     void place_bodies(State& state, double time) { boundary_.place_bodies(state, time); }
 

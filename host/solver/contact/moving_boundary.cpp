@@ -152,6 +152,33 @@ void MovingBoundary::advance(State& state, CcdFilter& filter, const Follow& foll
     take(state, filter_advance(state, filter, step, displacement), displacement, body_displacement);
 }
 
+std::optional<PairCandidate> MovingBoundary::obstacle(const State& state, CcdFilter& filter) const
+{
+    const int vs = state.size.vertex_stride;
+    std::vector<real> displacement(state.pos.size());
+    const std::vector<Vec3> body_displacement = body_displacements();
+    const StraightStep step{
+        state.pos, &displacement, vs, {corners_, body_displacement.empty() ? nullptr : &body_displacement, version_}};
+    displace_pins(state, displacement);
+    if (!body_displacement.empty()) {
+        filter.refresh({state.pos, nullptr, vs, corners()});
+        carry_along(state, filter, step, displacement);
+    }
+    filter.refresh(step);
+    const std::vector<float> fractions = filter.free_fractions(step, filter.held_margins());
+    const auto least = std::min_element(fractions.begin(), fractions.end());
+    if (least == fractions.end() || *least == 1) return {};
+    return filter.candidates()[std::size_t(least - fractions.begin())];
+}
+
+const Body& MovingBoundary::body_of_corner(int corner) const
+{
+    std::size_t left = std::size_t(-1 - corner);
+    auto body = bodies_.begin();
+    for (; left >= body->mesh.vertices.size(); ++body) left -= body->mesh.vertices.size();
+    return *body;
+}
+
 // Bodies and pins that get all the way are exactly where they are to be, whatever rounding gives.
 void MovingBoundary::take(State& state, float fraction, const std::vector<real>& displacement,
                           const std::vector<Vec3>& body_displacement)

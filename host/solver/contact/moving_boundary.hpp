@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,11 @@ public:
     /// their surface. The candidates of `filter` are not those of the new place.
     /// @param follow  how the cloth would follow pins
     void advance(State& state, CcdFilter& filter, const Follow& follow);
+    /// Finds the pair that bodies and pins would pass through first on the rest of their way, to tell what is in it.
+    /// As after advance, the candidates of `filter` are those of another place.
+    std::optional<PairCandidate> obstacle(const State& state, CcdFilter& filter) const;
+    /// The body that a corner below zero belongs to.
+    const Body& body_of_corner(int corner) const;
     /// True while bodies or pins are not yet at their targets.
     bool is_pending() const { return pending_; }
 

@@ -91,7 +91,8 @@ public:
     std::size_t bytes() const override
     {
         return matrix_.bytes() + jacobi_.bytes() + (5 * x_.size() + 2 * turn_.size()) * sizeof(linear) +
-               (multigrid_ ? multigrid_->bytes() : 0) + pattern_.place_bytes();
+               (multigrid_ ? multigrid_->bytes() : 0) + pattern_.place_bytes() +
+               (pattern_.column.size() + pattern_.row_begin.size()) * sizeof(int);
     }
 
     void run(LinearOperation operation) override

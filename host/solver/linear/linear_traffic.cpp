@@ -9,9 +9,14 @@
 namespace selvage {
 namespace {
 
-std::size_t matrix_bytes(const BlockPattern& pattern)
+std::size_t index_bytes(const BlockPattern& pattern)
 {
-    return std::size_t(pattern.blocks()) * (9 * sizeof(double) + sizeof(int)) + pattern.row_begin.size() * sizeof(int);
+    return (std::size_t(pattern.blocks()) + pattern.row_begin.size()) * sizeof(int);
+}
+
+std::size_t matrix_bytes(const BlockPattern& pattern, std::size_t scalar = sizeof(double))
+{
+    return std::size_t(pattern.blocks()) * 9 * scalar + index_bytes(pattern);
 }
 
 // Of one vector with three entries per row.
@@ -48,6 +53,30 @@ BlockPattern coarse_pattern(const BlockPattern& fine, const Prolongation& up)
         pattern.row_begin.push_back(int(pattern.column.size()));
     }
     return pattern;
+}
+
+// Entries of each row that are not zero.
+std::vector<int> row_entries(const Prolongation& up)
+{
+    std::vector<int> entries;
+    for (std::size_t row = 0; row + 1 < up.offset.size(); ++row) {
+        const auto first = up.weight.begin();
+        entries.push_back(
+            int(std::count_if(first + up.offset[row], first + up.offset[row + 1], [](double w) { return w != 0; })));
+    }
+    return entries;
+}
+
+// Of an interpolation, its transpose, and the list of products that make the coarse matrix.
+std::size_t connection_memory(const BlockPattern& fine, const Prolongation& up, int coarse_rows, std::size_t scalar)
+{
+    const std::vector<int> entries = row_entries(up);
+    std::size_t products = 0;
+    for (int row = 0; row < fine.rows(); ++row)
+        for (int k = fine.row_begin[row]; k < fine.row_begin[row + 1]; ++k)
+            products += std::size_t(entries[row]) * std::size_t(entries[fine.column[k]]);
+    return products * sizeof(int) + 2 * entry_count(up) * (sizeof(int) + scalar) +
+           std::size_t(fine.rows()) * sizeof(int) + std::size_t(coarse_rows) * (sizeof(int) + sizeof(std::size_t));
 }
 
 // Two smoothing steps before and after, the first of which needs no product: b, x, d and the inverse blocks are read,
@@ -114,6 +143,49 @@ std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleProlongati
     // The two triangular solves of the coarsest level read half of a dense matrix each.
     const std::size_t unknowns = 3 * std::size_t(fine.rows());
     return total + unknowns * unknowns * sizeof(double) + 2 * vector_bytes(fine);
+}
+
+BlockPattern pattern_of(const Topology& topology, bool bends)
+{
+    std::vector<std::vector<int>> columns(std::size_t(topology.particle_count));
+    const auto add = [&](int a, int b) {
+        columns[a].push_back(b);
+        columns[b].push_back(a);
+    };
+    for (const Face& f : topology.faces)
+        for (int k = 0; k < 3; ++k) add(f[k], f[(k + 1) % 3]);
+    for (const auto& [a, b] : topology.stitches) add(a, b);
+    for (const Spring& spring : topology.springs) add(spring.vertex[0], spring.vertex[1]);
+    if (bends)
+        for (const std::array<int, 4>& hinge : topology.hinges) add(hinge[2], hinge[3]);
+    BlockPattern pattern;
+    pattern.row_begin.assign(1, 0);
+    for (int row = 0; row < topology.particle_count; ++row) {
+        std::vector<int>& own = columns[row];
+        own.push_back(row);
+        std::sort(own.begin(), own.end());
+        own.erase(std::unique(own.begin(), own.end()), own.end());
+        pattern.column.insert(pattern.column.end(), own.begin(), own.end());
+        pattern.row_begin.push_back(int(pattern.column.size()));
+    }
+    return pattern;
+}
+
+std::size_t linear_solver_bytes(const BlockPattern& finest, const ParticleProlongations& prolongations,
+                                std::size_t scalar)
+{
+    const std::size_t vector = 3 * scalar, diagonal = 9 * scalar;
+    std::size_t total =
+        matrix_bytes(finest, scalar) + index_bytes(finest) + std::size_t(finest.rows()) * (5 * vector + diagonal);
+    if (prolongations.empty()) return total;
+    BlockPattern fine = finest;
+    for (const Prolongation& prolongation : prolongations) {
+        BlockPattern coarse = coarse_pattern(fine, prolongation);
+        total += connection_memory(fine, prolongation, coarse.rows(), scalar) + matrix_bytes(coarse, scalar) +
+                 std::size_t(coarse.rows()) * (4 * vector + diagonal);
+        fine = std::move(coarse);
+    }
+    return total + std::size_t(finest.rows()) * 3 * vector;
 }
 
 }  // namespace selvage

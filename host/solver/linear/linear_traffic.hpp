@@ -18,4 +18,12 @@ std::size_t update_bytes(const BlockPattern& pattern);  ///< Of x += a p, r -= a
 /// Of one V-cycle: all passes of Multigrid::cycle over all levels, the coarse patterns being those of P^T A P.
 std::size_t multigrid_bytes(const BlockPattern& finest, const ParticleProlongations& prolongations);
 
+/// Which blocks the matrix of a topology has, without the places of elements. @param bends  hinges add to it
+BlockPattern pattern_of(const Topology& topology, bool bends);
+
+/// What a linear solver will hold, in the sizes of LinearSolver::bytes().
+/// @param scalar  bytes of its numbers   @param prolongations  empty: block Jacobi instead of multigrid
+std::size_t linear_solver_bytes(const BlockPattern& finest, const ParticleProlongations& prolongations,
+                                std::size_t scalar);
+
 }  // namespace selvage

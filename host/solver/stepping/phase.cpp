@@ -24,19 +24,6 @@ Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
     return topology;
 }
 
-ParticleProlongations particle_prolongations(const ClothModel& model, const Topology& finest, bool joined)
-{
-    const TraceScope scope("particle_prolongations");
-    ParticleProlongations prolongations;
-    Topology finer = finest;
-    for (std::size_t level = 0; level < model.coarser.size(); ++level) {
-        Topology coarse = make_topology(model.coarser[level], joined);
-        prolongations.push_back(particle_prolongation(model.prolongations[level], coarse, finer));
-        finer = std::move(coarse);
-    }
-    return prolongations;
-}
-
 Surroundings surroundings(const ClothModel& model, const PhaseOptions& options, BodyQuery* query,
                           const Topology& topology, double edge_length)
 {
@@ -71,6 +58,19 @@ std::unique_ptr<LinearSolver> linear_solver(const ClothModel& model, const Phase
 }
 
 }  // namespace
+
+ParticleProlongations particle_prolongations(const ClothModel& model, const Topology& finest, bool joined)
+{
+    const TraceScope scope("particle_prolongations");
+    ParticleProlongations prolongations;
+    Topology finer = finest;
+    for (std::size_t level = 0; level < model.coarser.size(); ++level) {
+        Topology coarse = make_topology(model.coarser[level], joined);
+        prolongations.push_back(particle_prolongation(model.prolongations[level], coarse, finer));
+        finer = std::move(coarse);
+    }
+    return prolongations;
+}
 
 Phase::Phase(const ClothModel& model, const PhaseOptions& options, BodyQuery* query, Profile& profile,
              const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)

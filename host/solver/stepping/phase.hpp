@@ -12,6 +12,9 @@
 
 namespace selvage {
 
+/// Interpolations between the particles of a model's cloths, finest first. @param finest  of model.cloth
+ParticleProlongations particle_prolongations(const ClothModel& model, const Topology& finest, bool joined);
+
 struct PhaseOptions {
     Params params;
     bool joined = true;  ///< Sewn vertices are one particle.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/solver/state/planes.hpp"
 #include "host/solver/state/vectors.hpp"
 #include "io/errors.hpp"
 
@@ -67,11 +68,54 @@ bool StepControl::cloth_is_clear()
 bool StepControl::solve(double dt, const NewtonOptions& options, bool accurate)
 {
     report_ = integrator_.step(dt, options);
-    if (!std::isfinite(report_.residual) || !is_finite(system_.state())) return false;
+    if (!std::isfinite(report_.residual) || !is_finite(system_.state())) return fail(StepFault::not_finite);
     if (system_.apply_velocity_filters(dt)) integrator_.displaced();
-    if (!cloth_is_clear()) return false;
-    if (report_.stuck && report_.iterations == 0 && report_.residual > 10 * options.tolerance) return false;
-    return !accurate || report_.converged || report_.almost_converged;
+    if (!cloth_is_clear()) return fail(system_.boundary_waits() ? StepFault::blocked : StepFault::passed);
+    if (report_.stuck && report_.iterations == 0 && report_.residual > 10 * options.tolerance)
+        return fail(StepFault::stuck);
+    if (!accurate || report_.converged || report_.almost_converged) return true;
+    return fail(report_.stuck ? StepFault::stuck : StepFault::unsolved);
+}
+
+// Notes why an attempt fails. @returns false
+bool StepControl::fail(StepFault fault)
+{
+    failure_ = {.fault = fault};
+    return false;
+}
+
+// What can be told of an attempt that is the last, while the state is still where it led to.
+void StepControl::note_failure(double dt)
+{
+    const State& state = system_.state();
+    const int n = state.size.vertex_count;
+    failure_.step = dt;
+    failure_.longest = options_.longest;
+    failure_.residual = report_.residual;
+    if (failure_.fault == StepFault::blocked) {
+        ClothContact& contact = *system_.cloth_contact();
+        failure_.obstacle = contact.obstacle(state);
+        if (failure_.obstacle) {
+            failure_.obstacle_point = contact.nearest_point(state, *failure_.obstacle);
+            for (int corner : failure_.obstacle->corner)
+                if (corner < 0) failure_.obstacle_body = contact.body_of_corner(corner).name;
+        }
+    }
+    if (failure_.fault == StepFault::not_finite) {
+        const auto finite = [&](int v) {
+            return vertex_planes(state.size, state.pos)(v).allFinite() &&
+                   vertex_planes(state.size, state.vel)(v).allFinite();
+        };
+        for (int v = 0; v < n && failure_.particle < 0; ++v)
+            if (!finite(v)) failure_.particle = v;
+        return;
+    }
+    const ConstPlanes force = vertex_planes(state.size, system_.static_force());
+    for (int v = 0; v < n; ++v)
+        if (const double size = force(v).norm(); size > failure_.net_force) {
+            failure_.net_force = size;
+            failure_.particle = v;
+        }
 }
 
 // Fits the next step to the estimated error of the one just taken, which goes with a known power of its length.
@@ -128,10 +172,7 @@ void StepControl::shrink(double dt)
 {
     ++retries_;
     memory_.dt = 0.5 * dt;
-    if (!(memory_.dt >= floor_))
-        throw DivergenceError(
-            fmt::format("no step down to {:.3g} s succeeds (solver.step is {:.3g} s); residual {:.3g}", memory_.dt,
-                        options_.longest, report_.residual));
+    if (!(memory_.dt >= floor_)) throw StepFailureError(failure_);
 }
 
 StepControl::Cover StepControl::start(double room)
@@ -161,10 +202,13 @@ StepControl::Verdict StepControl::try_step(const Cover& cover, double dt, const 
     if (moves_) system_.move_boundary();
     // A limit that collapses on the way, or is no number, is that of a state that bursts.
     const bool sound = !fills() || dt >= floor_ || dt >= 0.5 * (cover.length - cover.done);
-    const bool solved = sound && solve(dt, options, accurate);
+    bool solved = sound && solve(dt, options, accurate);
     if (sound && report_.broken_off) return Verdict::broken_off;
     const bool last = ends(cover, dt);
-    if (!solved || passed_into_body(last) || (last && !keeps_energy(cover))) return Verdict::failed;
+    if (!sound) fail(StepFault::unstable);
+    if (solved && passed_into_body(last)) solved = fail(StepFault::entered_body);
+    if (solved && last && !keeps_energy(cover)) solved = fail(StepFault::gained_energy);
+    if (!solved) return Verdict::failed;
     return adapts() && too_inaccurate(dt) ? Verdict::inaccurate : Verdict::accepted;
 }
 
@@ -181,6 +225,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
                 return_to(start_, cover.begin);
                 return taken_ = 0;
             case Verdict::failed:
+                if (!(0.5 * cover.first >= floor_)) note_failure(cover.first);
                 return_to(start_, cover.begin);
                 cover.done = 0;
                 shrink(cover.first);

@@ -7,6 +7,7 @@
 #include "host/solver/stepping/integrator.hpp"
 #include "host/solver/stepping/phase.hpp"
 #include "host/solver/stepping/solver_snapshot.hpp"
+#include "host/solver/stepping/step_failure.hpp"
 #include "io/choices.hpp"
 
 namespace selvage {
@@ -63,7 +64,7 @@ public:
     /// Takes one step of at most `room` seconds; the clock goes on by its length.
     /// @param accurate  a step whose Newton iterations do not reach their tolerance counts as failed
     /// @returns the length of the accepted step [s]; 0 if it was broken off, with all as it was before
-    /// @throws DivergenceError when not even a thousandth of the longest step succeeds; the last good state is kept
+    /// @throws StepFailureError when not even a thousandth of the longest step succeeds; the last good state is kept
     /// @throws UnstableStepError if the longest step is unstable and that is to be refused
     double advance(double room, const NewtonOptions& options, bool accurate);
 
@@ -98,6 +99,8 @@ private:
     bool too_inaccurate(double dt);
     bool passed_into_body(bool last);
     bool keeps_energy(const Cover& cover);
+    bool fail(StepFault fault);
+    void note_failure(double dt);
     void shrink(double dt);
 
     System& system_;
@@ -110,6 +113,7 @@ private:
     double limit_ = std::numeric_limits<double>::infinity();
     int retries_ = 0;
     NewtonReport report_;
+    StepFailure failure_;  ///< What is known of the last attempt that failed.
     SolverSnapshot start_, last_;
     std::vector<real> looked_from_;  ///< Positions at the last look for ways into bodies.
 };

@@ -13,15 +13,17 @@ namespace {
 
 constexpr double gravity_on_earth = 9.81;  // [m/s^2]
 
-// The weight of the free vertices; without gravity that which they would have on earth.
+// The weight of the free vertices; without gravity that which they would have on earth. Where none is free there is no
+// force either, and any weight will do.
 double weight_of(const State& state, const Params& params)
 {
     const double gravity =
         std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y, params.gravity.acceleration_z);
     const double scale = gravity > 0 ? gravity : gravity_on_earth;
-    return std::sqrt(sum_items(state.size.vertex_count, [&state, scale](int v) {
+    const double square = sum_items(state.size.vertex_count, [&state, scale](int v) {
         return state.inv_mass[v] == 0 ? 0.0 : scale * scale * state.mass[v] * state.mass[v];
-    }));
+    });
+    return square > 0 ? std::sqrt(square) : 1;
 }
 
 void set_air(auto& term, const Vec3& velocity)
