@@ -14,6 +14,7 @@
 #include "host/solver/state/springs.hpp"
 #include "host/solver/terms/cloth_state.hpp"
 #include "host/solver/terms/terms.hpp"
+#include "host/solver/terms/unit_strengths.hpp"
 
 namespace selvage {
 namespace {
@@ -23,21 +24,9 @@ constexpr int dome_level = 6;            // 20 * 4^6 triangles
 constexpr double contact_margin = 0.03;  // as in a run [m]
 constexpr int coarsest_vertices = 300;
 
-// A term that is added later has all its strengths at one.
-Params all_strengths()
+Params bench_params()
 {
-    Params params;
-#define STRENGTH(name, initial, unit, meaning) values.name = 1;
-#define PARAM(name, initial, unit, meaning)
-#define TERM(term, per, nature, stage, family) \
-    {                                          \
-        auto& values = params.term;            \
-        term##_PARAMS(STRENGTH, PARAM)         \
-    }
-    TERMS(TERM)
-#undef TERM
-#undef PARAM
-#undef STRENGTH
+    Params params = unit_strengths();
     params.gravity.acceleration_x = 0.1;
     params.gravity.acceleration_y = -0.2;
     params.gravity.acceleration_z = -9.81;
@@ -72,7 +61,7 @@ void add_stitches(Cloth& cloth, int resolution)
 
 }  // namespace
 
-KernelCloth::KernelCloth(int vertex_count) : params(all_strengths())
+KernelCloth::KernelCloth(int vertex_count) : params(bench_params())
 {
     const int resolution = std::max(4, int(std::lround(std::sqrt(double(vertex_count)))));
     Cloth cloth = square_sheet(resolution);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/solver/terms/unit_strengths.hpp"
 #include "validation/cases/cases.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"

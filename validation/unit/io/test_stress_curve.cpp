@@ -4,6 +4,7 @@
 
 #include "host/solver/state/rest_state.hpp"
 #include "host/solver/terms/cloth_state.hpp"
+#include "host/solver/terms/unit_strengths.hpp"
 #include "io/scene/fabric_table.hpp"
 #include "io/scene/read_scene.hpp"
 #include "io/scene/scene.hpp"

@@ -1,4 +1,5 @@
 #include "host/solver/state/snapshot.hpp"
+#include "host/solver/terms/unit_strengths.hpp"
 #include "validation/measure/small_cloth.hpp"
 
 using namespace selvage;

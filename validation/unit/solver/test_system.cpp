@@ -5,6 +5,7 @@
 #include "host/solver/stepping/equilibrium.hpp"
 #include "host/solver/stepping/sleep.hpp"
 #include "host/solver/stepping/step_control.hpp"
+#include "host/solver/terms/unit_strengths.hpp"
 #include "validation/measure/small_cloth.hpp"
 
 using namespace selvage;

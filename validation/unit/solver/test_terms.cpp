@@ -2,6 +2,7 @@
 
 #include "host/solver/linear/linear_solver.hpp"
 #include "host/solver/terms/cloth_state.hpp"
+#include "host/solver/terms/unit_strengths.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"
 #include "validation/measure/stiffness.hpp"
