@@ -13,6 +13,7 @@
 #include "host/solver/contact/anchors.hpp"
 #include "host/solver/state/springs.hpp"
 #include "host/solver/terms/cloth_state.hpp"
+#include "host/solver/terms/face_air.hpp"
 #include "host/solver/terms/terms.hpp"
 #include "host/solver/terms/unit_strengths.hpp"
 
@@ -32,6 +33,7 @@ Params bench_params()
     params.gravity.acceleration_z = -9.81;
     params.seam.stiffness = 400;
     params.body_contact.stiffness = 150;
+    params.wind.velocity_x = params.air_drag.velocity_x = 3;
     return params;
 }
 
@@ -72,6 +74,7 @@ KernelCloth::KernelCloth(int vertex_count) : params(bench_params())
     std::vector<Vec3> positions, velocities;
     lay_on_dome(cloth, positions, velocities);
     state = make_state(topology, cloth, fabrics, params, positions, velocities);
+    find_face_air(state);
 
     make_bodies();
     contact = std::make_shared<ClothBodyContact>(*query, bodies, topology, cloth, fabrics, params.body_contact.gap,

@@ -47,7 +47,6 @@ sheet = "top_corners"
 until = {}
 {}
 [output]
-picture_width = 800
 {})",
                        resolution, parts.weft, parts.damping, parts.fabric, parts.bodies, parts.tables, parts.contact,
                        until, parts.solver, parts.output);
@@ -111,7 +110,7 @@ using Change = std::function<void(SceneParts&)>;
 
 struct Feature {
     std::string name;
-    Change absent, idle, active;  // idle and active may be empty
+    Change absent, idle, active;  // idle is empty where the scene would be refused: keys that can do nothing are
     std::string trace;            // the phase that a profile has, before the end of the run, if the feature is in use
 };
 
@@ -121,7 +120,6 @@ std::vector<Feature> features(const std::string& folder)
     const std::string ball = "shape = \"sphere\"\nradius = 0.1";
     const std::string mesh = fmt::format("shape = \"mesh\"\nmesh = \"{}\"", write_octahedron(folder));
     const auto with_body = [](const std::string& text) { return [text](SceneParts& parts) { parts.bodies = text; }; };
-    const auto with_fabric = [](const std::string& text) { return [text](SceneParts& parts) { parts.fabric = text; }; };
     const std::string curve = "stretch_weft_curve = [[0.02, 20.0], [0.1, 140.0]]\n";
     const std::string loop = "hysteresis_weft = 2e-4\nhysteresis_warp = 2e-4\n";
     return {
@@ -130,19 +128,16 @@ std::vector<Feature> features(const std::string& folder)
          with_body(body(ball, true, 0.3)), "friction"},
         {"embree", with_body(body(ball, true, 0)), with_body(body(mesh, false, 0)), with_body(body(mesh, true, 0)),
          "embree"},
-        {"damping", nothing,
-         [](SceneParts& parts) { parts.tables = "[fabric.other]\nbase = \"cotton\"\ndamping = 1\n"; },
-         [](SceneParts& parts) { parts.damping = 1; }, "damping"},
-        {"hysteresis", nothing, with_fabric(loop),
+        {"damping", nothing, {}, [](SceneParts& parts) { parts.damping = 1; }, "damping"},
+        {"hysteresis",
+         nothing,
+         {},
          [loop](SceneParts& parts) {
              parts.fabric = loop;
              parts.tables = "[bending]\nhysteresis = true\n";
          },
          "bending_hysteresis"},
-        {"curves", nothing,
-         [curve](SceneParts& parts) { parts.tables = "[fabric.other]\nbase = \"cotton\"\n" + curve; },
-         [curve](SceneParts& parts) { parts.weft = curve; }, "curved_membrane"},
-        {"seams", nothing, [](SceneParts& parts) { parts.tables = "[seams]\nstiffness = 4e4\n"; }, {}, "seam"},
+        {"curves", nothing, {}, [curve](SceneParts& parts) { parts.weft = curve; }, "curved_membrane"},
         {"self-contact", nothing, [](SceneParts& parts) { parts.contact = "self = true"; }, {}, "cloth_contact_pairs"},
         {"sleep",
          [](SceneParts& parts) {
@@ -153,9 +148,11 @@ std::vector<Feature> features(const std::string& folder)
          [](SceneParts& parts) { parts.in_places = true; },
          "fall_asleep"},
         {"frames", nothing, {}, [](SceneParts& parts) { parts.output = "picture = false\n"; }, "write_frame"},
-        {"picture", nothing,
-         [](SceneParts& parts) { parts.output = std::string("picture_samples = 8\n") + quiet_output; },
-         [](SceneParts& parts) { parts.output = "frames = false\n"; }, "opencv"},
+        {"picture",
+         nothing,
+         {},
+         [](SceneParts& parts) { parts.output = "frames = false\npicture_width = 800\n"; },
+         "opencv"},
     };
 }
 
