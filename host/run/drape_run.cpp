@@ -11,12 +11,13 @@
 #include "host/run/interrupt.hpp"
 #include "host/run/measure.hpp"
 #include "host/run/run_profile.hpp"
+#include "io/atomic_file.hpp"
 #include "io/errors.hpp"
 #include "io/scene/scene.hpp"
 
 namespace selvage {
-DrapeRun::DrapeRun(const Scene& scene, const RunOptions& options)
-    : options_(options), model_(build_scene_model(scene)), plan_(make_plan(scene, model_))
+DrapeRun::DrapeRun(const Scene& scene, const RunOptions& options, RunFolder& folder)
+    : options_(options), folder_(folder), model_(build_scene_model(scene)), plan_(make_plan(scene, model_))
 {
     check_memory(scene, plan_);
     settings_ = make_run_settings(scene, model_);
@@ -42,7 +43,7 @@ void DrapeRun::start_phase(RunStage stage, const std::vector<Vec3>& positions, c
 
 void DrapeRun::begin()
 {
-    recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, false);
+    recorder_ = std::make_unique<RunRecorder>(settings_, model_, folder_, options_.quiet, false);
     progress_.counters.phases["assemble"] = elapsed();
     start_afresh(plan_.coarse_start ? RunStage::coarse : plan_.phases.front().stage);
 }
@@ -67,7 +68,7 @@ void DrapeRun::resume()
     start_phase(progress_.stage, model_.cloth_model.cloth.positions, {});
     load_particles(checkpoint, checkpoint_path(), *phase_);
     load_history(checkpoint, checkpoint_path(), *integrator_);
-    recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, true);
+    recorder_ = std::make_unique<RunRecorder>(settings_, model_, folder_, options_.quiet, true);
     recorder_->open_phase(progress_.stage, phase_->topology(), progress_.frames);
 }
 
@@ -76,7 +77,9 @@ void DrapeRun::save()
     const TraceScope scope("checkpoint");
     progress_.wall_seconds = elapsed();
     progress_.frames = recorder_->frame_count();
-    save_run(checkpoint_path(), model_, progress_, *phase_, *integrator_);
+    folder_.write([&](const std::string& folder) {
+        save_run(folder + "/checkpoint.h5", model_, progress_, *phase_, *integrator_);
+    });
     last_checkpoint_ = elapsed();
 }
 
@@ -224,7 +227,7 @@ RunOutcome DrapeRun::conclude_at_rest()
                     cloth->counts().tangles, cloth->counts().inside));
 }
 
-RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
+RunOutcome DrapeRun::conclude(RunStatus status, std::string message)
 {
     const TraceScope scope("conclude");
     phase_->system().refresh_pairs();
@@ -235,10 +238,15 @@ RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
     save();
     recorder_->close_phase();
     const double bodies_time = progress_.stage == RunStage::sew ? 0 : time;  // they wait for the garment
+    bool complete = status == RunStatus::converged || status == RunStatus::finished;
+    if (!recorder_->show_last(bodies_time, *phase_) && complete) {
+        complete = false;
+        status = RunStatus::interrupted;
+        message = "interrupted while the picture was drawn: the state is saved, --resume draws it";
+    }
     recorder_->conclude(status, bodies_time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
                         stability_, coarse_stages_, profile_, residual, elapsed(), message);
-    const bool complete = status == RunStatus::converged || status == RunStatus::finished;
-    if (complete && !settings_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());
+    if (complete && !settings_.output.keep_checkpoint) folder_.remove("checkpoint.h5");
     int code = complete ? 0 : 4;
     if (status == RunStatus::diverged) code = 3;
     if (status == RunStatus::interrupted) code = interrupt_exit_code();
@@ -289,6 +297,21 @@ RunOutcome DrapeRun::execute()
     }
 }
 
+namespace {
+
+// What a run that cannot write any more leaves behind, for the message.
+std::string what_is_left(RunFolder& folder)
+try {
+    if (std::filesystem::exists(folder.path() + "/checkpoint.h5"))
+        return "; the frames so far and the last checkpoint are kept: --resume goes on from there";
+    const bool began = std::filesystem::exists(folder.path() + "/run.h5");
+    return began ? "; the frames so far are kept; there is no checkpoint yet to go on from" : "";
+} catch (const WriteError&) {
+    return "; the run cannot go on without it";
+}
+
+}  // namespace
+
 RunOutcome run_drape(const Scene& scene, const RunOptions& options)
 {
     std::optional<tbb::global_control> limit;
@@ -297,9 +320,17 @@ RunOutcome run_drape(const Scene& scene, const RunOptions& options)
     std::optional<Trace> trace;
     if (options.profile) trace.emplace();
     const TraceUse use(trace ? &*trace : nullptr);
-    const RunOutcome outcome = DrapeRun(scene, options).execute();
-    if (trace) conclude_profile(*trace, options.folder);
-    return outcome;
+    RunFolder folder(options.folder);
+    if (!folder.not_locked().empty()) fmt::print(stderr, "selvage: {}\n", folder.not_locked());
+    try {
+        RunOutcome outcome = DrapeRun(scene, options, folder).execute();
+        if (trace) conclude_profile(*trace, folder.path());
+        outcome.folder = folder.path();
+        return outcome;
+    } catch (WriteError& error) {
+        error.add(what_is_left(folder));
+        throw;
+    }
 }
 
 }  // namespace selvage

@@ -17,13 +17,15 @@ struct RunOptions {
 struct RunOutcome {
     RunStatus status = RunStatus::finished;
     int exit_code = 0;
-    std::string message;  ///< For stderr; empty when there is nothing to say.
+    std::string message;      ///< For stderr; empty when there is nothing to say.
+    std::string folder = {};  ///< Where the results are at the end: it may have been moved meanwhile.
 };
 
 /// Sews and drapes a scene and writes trajectory, summary, last frame, picture and checkpoints into the folder.
 /// Sewing runs without gravity until every seam is closed; then sewn vertices become one particle and the garment is
 /// draped, to equilibrium or for a given time.
-/// @throws InputError for a faulty scene, a scene too large for the memory, or a missing checkpoint
+/// @throws InputError for a faulty scene, a scene too large for the memory, a missing checkpoint, or a folder that
+/// another run writes to; WriteError when a file cannot be written
 RunOutcome run_drape(const Scene& scene, const RunOptions& options);
 
 }  // namespace selvage

@@ -46,9 +46,9 @@ void protect(Hdf5File& file, const std::string& name, hid_t type, std::size_t si
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
 {
-    const std::string temporary = temporary_name(path);
+    TemporaryFile temporary(path);
     {
-        Hdf5File file(temporary, Hdf5Access::create);
+        Hdf5File file(temporary.name(), Hdf5Access::create);
         for (const char* group : {reals, integers, words}) file.make_group(group);
         for (const auto& [name, values] : checkpoint.reals)
             protect(file, member(reals, name), H5T_NATIVE_DOUBLE, values.size(), values.data());
@@ -59,9 +59,9 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
             file.set_text(member(words, name), "text", word);
         }
         file.set_text("/", "schema", schema);
-        file.flush();
+        file.close();
     }
-    move_into_place(temporary, path);
+    temporary.move_into_place();
 }
 
 Checkpoint read_checkpoint(const std::string& path)
