@@ -1,3 +1,4 @@
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "bench/bench_command.hpp"
 #include "host/commands/commands.hpp"
+#include "host/commands/standard_streams.hpp"
 #include "host/parallel/subnormals.hpp"
 #include "io/errors.hpp"
 #include "io/version.hpp"
@@ -16,7 +18,7 @@ namespace {
 
 using namespace selvage;
 
-// Part of the contract with scripts; a run itself may also return 4 (limits reached) and 130 or 143 (interrupted).
+// Part of the contract with scripts; a run itself may also return 4 (limits reached) and 128 + a signal (interrupted).
 constexpr int internal_error = 1, bad_input = 2, diverged = 3;
 
 void add_commands(CLI::App& program, Action& chosen)
@@ -54,11 +56,8 @@ int run(const Action& action)
     }
 }
 
-}  // namespace
-
-int main(int argc, char** argv)
+int run_program(int argc, char** argv)
 {
-    flush_subnormals();
     CLI::App program("Selvage drapes cloth: sews flat panels onto a body and finds how they hang.", "selvage");
     Action chosen;
     add_commands(program, chosen);
@@ -77,4 +76,14 @@ int main(int argc, char** argv)
         std::cerr << program.help();
         return bad_input;
     });
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    hold_standard_descriptors();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size is an error of the write
+    flush_subnormals();
+    return with_results_printed(run_program(argc, argv));
 }

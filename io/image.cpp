@@ -1,13 +1,30 @@
 #include "io/image.hpp"
 
-#include <algorithm>
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "io/atomic_file.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
+
+namespace {
+
+// A terminal's pipe or a device is written as it is: nothing can take its place.
+void write_stream(const std::string& path, std::string_view bytes)
+{
+    errno = 0;
+    std::ofstream stream(path, std::ios::binary);
+    stream.write(bytes.data(), std::streamsize(bytes.size()));
+    stream.close();
+    if (!stream) throw WriteError(path, errno);
+}
+
+}  // namespace
 
 Image make_image(int width, int height, Rgb colour)
 {
@@ -31,13 +48,13 @@ void write_png(const std::string& file, const Image& image)
             const Rgb& rgb = image.at(column, row);
             bgr.at<cv::Vec3b>(row, column) = {rgb[2], rgb[1], rgb[0]};
         }
-    // The picture is encoded in memory, so that the file's name need not end in ".png" and a full disk is detected.
+    // The picture is encoded in memory, so that the file's name need not end in ".png".
     std::vector<std::uint8_t> bytes;
     cv::imencode(".png", bgr, bytes);
-    std::ofstream stream(file, std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    stream.close();
-    if (!stream) throw InputError({file, 0, 0, {}}, "a file that cannot be written", "a writable path for the picture");
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::error_code none;
+    const bool is_stream = std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none);
+    is_stream ? write_stream(file, text) : write_file_atomically(file, text);
 }
 
 }  // namespace selvage

@@ -31,7 +31,7 @@ int drape(DrapeArguments arguments)
     install_interrupt_handler();
     const RunOutcome outcome = run_drape(scene, arguments.run);
     if (!outcome.message.empty()) std::cerr << outcome.message << '\n';
-    if (arguments.json) std::cout << std::ifstream(arguments.run.folder + "/summary.json").rdbuf();
+    if (arguments.json) std::cout << std::ifstream(outcome.folder + "/summary.json").rdbuf();
     return outcome.exit_code;
 }
 
@@ -59,7 +59,7 @@ void add_drape_command(CLI::App& program, Action& chosen)
     command->footer(
         "Example:\n"
         "  selvage drape builtin:tshirt -o out --set garment.resolution=0.01 --set garment.fabric=silk\n"
-        "Exit codes: 0 done, 2 bad input, 3 diverged, 4 not converged within the limits, 130/143 interrupted.");
+        "Exit codes: 0 done, 2 bad input, 3 diverged, 4 not converged within the limits, 128 + signal interrupted.");
     command->callback([arguments, &chosen] { chosen = [arguments] { return drape(*arguments); }; });
 }
 

@@ -111,7 +111,9 @@ Image render_picture(const PictureCloth& cloth, const std::vector<TriangleMesh>&
     for (int view = 0; view < 2; ++view) {
         const int first_column = view * view_width;
         const int width = view == 0 ? view_width : options.width - view_width;
-        draw_view(scene, tracer, cameras[std::size_t(view)], options.samples_per_axis, first_column, width, image);
+        if (!draw_view(scene, tracer, cameras[std::size_t(view)], options.samples_per_axis, options.stop, first_column,
+                       width, image))
+            return {};
     }
     return image;
 }

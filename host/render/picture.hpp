@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "host/render/camera.hpp"
@@ -22,11 +23,12 @@ struct PictureOptions {
     int samples_per_axis = 3;  ///< Square root of the camera rays per pixel.
     bool ground = true;        ///< Lets the subject cast a shadow on a ground below it.
     PictureViews views = PictureViews::automatic;
+    std::function<bool()> stop = {};  ///< Asked from several threads; true breaks the picture off.
 };
 
 /// Draws cloth and bodies with smooth shading and soft light, two views side by side. The views show the cloth and the
 /// parts of the bodies close to it. The picture depends on nothing but the arguments: two calls give the same pixels.
-/// Faces with corners that are not finite are left out.
+/// Faces with corners that are not finite are left out. A picture that `stop` has broken off has no pixels.
 /// @throws std::invalid_argument if an index is out of range, width < 16 or samples_per_axis < 1.
 /// @throws std::runtime_error if Embree fails.
 Image render_picture(const PictureCloth& cloth, const std::vector<TriangleMesh>& bodies,

@@ -1,6 +1,7 @@
 #include "host/render/view.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -36,14 +37,23 @@ std::vector<UnitSquare> places_in_pixel(int samples_per_axis)
     return corners;
 }
 
+// Returns false if `stop` has broken it off.
 template <class Visit>
-void for_every_pixel(int width, int height, const Visit& visit)
+bool for_every_pixel(int width, int height, const std::function<bool()>& stop, const Visit& visit)
 {
+    std::atomic<bool> stopped{false};
     const tbb::blocked_range2d<int> all(0, height, tile, 0, width, tile);
     tbb::parallel_for(all, [&](const auto& range) {
         for (int row = range.rows().begin(); row < range.rows().end(); ++row)
-            for (int column = range.cols().begin(); column < range.cols().end(); ++column) visit(column, row);
+            for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
+                if (stopped || (stop && stop())) {
+                    stopped = true;
+                    return;
+                }
+                visit(column, row);
+            }
     });
+    return !stopped;
 }
 
 float display_value(float linear)
@@ -141,16 +151,17 @@ private:
 
 }  // namespace
 
-void draw_view(const PictureScene& scene, const SceneTracer& tracer, const Camera& camera, int samples_per_axis,
-               int first_column, int width, Image& image)
+bool draw_view(const PictureScene& scene, const SceneTracer& tracer, const Camera& camera, int samples_per_axis,
+               const std::function<bool()>& stop, int first_column, int width, Image& image)
 {
     const ViewTracer view(scene, tracer, camera, samples_per_axis, width, image.height);
     PixelBuffer buffer(width, image.height);
-    for_every_pixel(width, image.height,
-                    [&](int column, int row) { buffer.at(column, row) = view.pixel(column, row); });
+    if (!for_every_pixel(width, image.height, stop,
+                         [&](int column, int row) { buffer.at(column, row) = view.pixel(column, row); }))
+        return false;
 
     const float pixel_size = camera.pixel_size(width);
-    for_every_pixel(width, image.height, [&](int column, int row) {
+    return for_every_pixel(width, image.height, stop, [&](int column, int row) {
         image.at(first_column + column, row) = quantised(smoothed_colour(buffer, column, row, pixel_size), column, row);
     });
 }

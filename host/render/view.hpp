@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "host/render/camera.hpp"
 #include "host/render/pixel_buffer.hpp"
 #include "host/render/scene_tracer.hpp"
@@ -11,7 +13,9 @@ namespace selvage {
 /// @param first_column      where the view begins in the picture
 /// @param width             of the view [pixels]; it is as high as the picture
 /// @param samples_per_axis  square root of the camera rays per pixel
-void draw_view(const PictureScene& scene, const SceneTracer& tracer, const Camera& camera, int samples_per_axis,
-               int first_column, int width, Image& image);
+/// @param stop              asked before every pixel, by several threads; true breaks off; may be empty
+/// @returns whether the view was drawn to its end
+bool draw_view(const PictureScene& scene, const SceneTracer& tracer, const Camera& camera, int samples_per_axis,
+               const std::function<bool()>& stop, int first_column, int width, Image& image);
 
 }  // namespace selvage

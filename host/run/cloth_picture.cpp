@@ -1,6 +1,5 @@
 #include "host/run/cloth_picture.hpp"
 
-#include "host/parallel/trace.hpp"
 #include "host/run/measure.hpp"
 
 namespace selvage {
@@ -24,8 +23,8 @@ std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology)
     return faces;
 }
 
-void draw_cloth(const std::string& path, const Cloth& cloth, const std::vector<TriangleMesh>& bodies,
-                const std::vector<Vec3>& positions, const Topology& topology, PictureOptions options)
+Image draw_cloth(const Cloth& cloth, const std::vector<TriangleMesh>& bodies, const std::vector<Vec3>& positions,
+                 const Topology& topology, PictureOptions options)
 {
     const std::vector<int> representative = representatives(topology);
     PictureCloth picture;
@@ -37,9 +36,7 @@ void draw_cloth(const std::string& path, const Cloth& cloth, const std::vector<T
             picture.seam_edges.push_back(
                 {representative[cloth.seam_pairs[k][0]], representative[cloth.seam_pairs[k + 1][0]]});
     if (!cloth.seams.empty()) options.views = PictureViews::front_and_back;
-    const Image image = render_picture(picture, bodies, options);
-    const TraceScope scope("opencv");
-    write_png(path, image);
+    return render_picture(picture, bodies, options);
 }
 
 }  // namespace selvage

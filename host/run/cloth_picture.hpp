@@ -14,8 +14,8 @@ std::vector<int> representatives(const Topology& topology);
 /// panels share the vertices of their seam.
 std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology);
 
-/// Draws the cloth and its bodies into a PNG file, seams visible.
-void draw_cloth(const std::string& path, const Cloth& cloth, const std::vector<TriangleMesh>& bodies,
-                const std::vector<Vec3>& positions, const Topology& topology, PictureOptions options);
+/// Draws the cloth and its bodies, seams visible. A picture that options.stop has broken off has no pixels.
+Image draw_cloth(const Cloth& cloth, const std::vector<TriangleMesh>& bodies, const std::vector<Vec3>& positions,
+                 const Topology& topology, PictureOptions options);
 
 }  // namespace selvage

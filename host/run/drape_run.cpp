@@ -15,12 +15,13 @@
 #include "host/run/measure.hpp"
 #include "host/run/phase_memory.hpp"
 #include "host/run/run_profile.hpp"
+#include "io/atomic_file.hpp"
 #include "io/errors.hpp"
 #include "io/scene/scene.hpp"
 
 namespace selvage {
-DrapeRun::DrapeRun(const Scene& scene, const RunOptions& options)
-    : options_(options), model_(build_scene_model(scene)), plan_(make_plan(scene, model_))
+DrapeRun::DrapeRun(const Scene& scene, const RunOptions& options, RunFolder& folder)
+    : options_(options), folder_(folder), model_(build_scene_model(scene)), plan_(make_plan(scene, model_))
 {
     check_memory(scene, plan_);
     settings_ = make_run_settings(scene, model_);
@@ -47,7 +48,7 @@ void DrapeRun::start_phase(RunStage stage, const std::vector<Vec3>& positions, c
 
 void DrapeRun::begin()
 {
-    recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, false);
+    recorder_ = std::make_unique<RunRecorder>(settings_, model_, folder_, options_.quiet, false);
     if (!options_.notice.empty()) recorder_->say(options_.notice);
     progress_.counters.phases["assemble"] = elapsed();
     recorder_->warn(model_.findings);
@@ -75,7 +76,7 @@ bool DrapeRun::resume()
     wall_before_ = progress_.wall_seconds;
     start_phase(progress_.stage, model_.cloth_model.cloth.positions, {});
     load_phase(checkpoint, checkpoint_path(), *phase_, *integrator_);
-    recorder_ = std::make_unique<RunRecorder>(settings_, model_, options_, true);
+    recorder_ = std::make_unique<RunRecorder>(settings_, model_, folder_, options_.quiet, true);
     recorder_->warn(model_.findings);
     recorder_->open_phase(progress_.stage, phase_->topology(), progress_.frames);
     recorder_->set_frame_progress(progress_.frame);
@@ -91,7 +92,9 @@ void DrapeRun::save()
     progress.wall_seconds = elapsed();
     progress.frames = recorder_->frame_count();
     progress.frame = recorder_->frame_progress();
-    save_run(checkpoint_path(), identity_, progress, *phase_, *integrator_);
+    folder_.write([&](const std::string& folder) {
+        save_run(folder + "/checkpoint.h5", identity_, progress, *phase_, *integrator_);
+    });
     last_checkpoint_ = elapsed();
     stopped_ = options_.after_checkpoint && !options_.after_checkpoint();
 }
@@ -274,7 +277,7 @@ RunOutcome DrapeRun::conclude_at_rest()
                     cloth->counts().tangles, cloth->counts().inside));
 }
 
-RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
+RunOutcome DrapeRun::conclude(RunStatus status, std::string message)
 {
     const TraceScope scope("conclude");
     // A run that is resumed goes on from here, and without the frame that this one ends with.
@@ -286,11 +289,16 @@ RunOutcome DrapeRun::conclude(RunStatus status, const std::string& message)
     if (progress_.stage != RunStage::press) recorder_->write_frame(*phase_, event, elapsed(), true);
     recorder_->close_phase();
     const double bodies_time = progress_.stage == RunStage::sew ? 0 : time;  // they wait for the garment
+    bool complete = status == RunStatus::converged || status == RunStatus::finished;
+    if (!recorder_->show_last(bodies_time, *phase_) && complete) {
+        complete = false;
+        status = RunStatus::interrupted;
+        message = "interrupted while the picture was drawn: the state is saved, --resume draws it";
+    }
     const std::vector<Finding> at_end =
         recorder_->conclude(status, bodies_time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
                             progress_.stability, progress_.coarse.stages, profile_, residual, elapsed(), message);
-    const bool complete = status == RunStatus::converged || status == RunStatus::finished;
-    if (complete && !settings_.output.keep_checkpoint) std::filesystem::remove(checkpoint_path());
+    if (complete && !settings_.output.keep_checkpoint) folder_.remove("checkpoint.h5");
     int code = complete ? 0 : 4;
     if (status == RunStatus::diverged) code = 3;
     if (status == RunStatus::interrupted) code = interrupt_exit_code();
@@ -343,6 +351,21 @@ RunOutcome DrapeRun::execute()
     }
 }
 
+namespace {
+
+// What a run that cannot write any more leaves behind, for the message.
+std::string what_is_left(RunFolder& folder)
+try {
+    if (std::filesystem::exists(folder.path() + "/checkpoint.h5"))
+        return "; the frames so far and the last checkpoint are kept: --resume goes on from there";
+    const bool began = std::filesystem::exists(folder.path() + "/run.h5");
+    return began ? "; the frames so far are kept; there is no checkpoint yet to go on from" : "";
+} catch (const WriteError&) {
+    return "; the run cannot go on without it";
+}
+
+}  // namespace
+
 RunOutcome run_drape(const Scene& scene, const RunOptions& options)
 {
     RunOptions used = options;
@@ -357,9 +380,17 @@ RunOutcome run_drape(const Scene& scene, const RunOptions& options)
     std::optional<Trace> trace;
     if (options.profile) trace.emplace();
     const TraceUse use(trace ? &*trace : nullptr);
-    const RunOutcome outcome = DrapeRun(scene, used).execute();
-    if (trace) conclude_profile(*trace, options.folder);
-    return outcome;
+    RunFolder folder(options.folder);
+    if (!folder.not_locked().empty()) fmt::print(stderr, "selvage: {}\n", folder.not_locked());
+    try {
+        RunOutcome outcome = DrapeRun(scene, used, folder).execute();
+        if (trace) conclude_profile(*trace, folder.path());
+        outcome.folder = folder.path();
+        return outcome;
+    } catch (WriteError& error) {
+        error.add(what_is_left(folder));
+        throw;
+    }
 }
 
 }  // namespace selvage

@@ -19,7 +19,8 @@ namespace selvage {
 /// One run from the assembled scene to its end; owns everything that lives as long as the run.
 class DrapeRun {
 public:
-    DrapeRun(const Scene& scene, const RunOptions& options);
+    /// @param folder  for the results; outlives the run
+    DrapeRun(const Scene& scene, const RunOptions& options, RunFolder& folder);
     RunOutcome execute();
 
 private:
@@ -43,13 +44,14 @@ private:
     void note_stretch(const StepEvent& event);
     double elapsed() const;
     RunOutcome conclude_at_rest();
-    RunOutcome conclude(RunStatus status, const std::string& message);
+    RunOutcome conclude(RunStatus status, std::string message);
     RunOutcome conclude_stopped();
     std::string why_not_done() const;
 
-    std::string checkpoint_path() const { return options_.folder + "/checkpoint.h5"; }
+    std::string checkpoint_path() { return folder_.path() + "/checkpoint.h5"; }
 
     RunOptions options_;
+    RunFolder& folder_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
     SceneModel model_;
     RunPlan plan_;

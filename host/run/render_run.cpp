@@ -10,6 +10,7 @@
 #include "io/mesh/mesh_obj.hpp"
 #include "io/run/trajectory.hpp"
 #include "io/scene/read_scene.hpp"
+#include "io/steady_read.hpp"
 
 namespace selvage {
 namespace {
@@ -85,13 +86,18 @@ std::vector<std::array<int, 2>> seam_edges(const TrajectoryLayout& layout)
 
 void render_run(const std::string& run_h5, const std::string& png, int frame, int width, const std::string& body_obj)
 {
-    const TrajectoryReader reader(run_h5);
-    const int count = reader.frame_count(), at = frame < 0 ? count + frame : frame;
-    if (at < 0 || at >= count)
-        throw InputError({run_h5, 0, 0, "frame"}, std::to_string(frame),
-                         "a frame from 0 to " + std::to_string(count - 1));
     PictureCloth picture;
-    picture.positions = reader.read_frame(at);
+    int at = frame;
+    const TrajectoryReader reader = read_steadily(run_h5, [&] {
+        TrajectoryReader run(run_h5);
+        const int count = run.frame_count();
+        at = frame < 0 ? count + frame : frame;
+        if (at < 0 || at >= count)
+            throw InputError({run_h5, 0, 0, "frame"}, std::to_string(frame),
+                             "a frame from 0 to " + std::to_string(count - 1));
+        picture.positions = run.read_frame(at);
+        return run;
+    });
     picture.faces = reader.layout().triangles;
     picture.face_panel = face_panels(reader.layout());
     picture.seam_edges = seam_edges(reader.layout());

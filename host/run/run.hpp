@@ -21,7 +21,8 @@ struct RunOptions {
 struct RunOutcome {
     RunStatus status = RunStatus::finished;
     int exit_code = 0;
-    std::string message;  ///< For stderr; empty when there is nothing to say.
+    std::string message;      ///< For stderr; empty when there is nothing to say.
+    std::string folder = {};  ///< Where the results are at the end: it may have been moved meanwhile.
 };
 
 /// Sews and drapes a scene and writes trajectory, summary, last frame, picture and checkpoints into the folder.
@@ -29,8 +30,8 @@ struct RunOutcome {
 /// draped, to equilibrium or for a given time.
 /// With `resume` the run goes on from its checkpoint: docs/resume.md. One that has left none starts from the beginning;
 /// of one that has ended, nothing is touched.
-/// @throws InputError for a faulty scene, a scene too large for the memory, or a checkpoint that is damaged or of
-///         another scene
+/// @throws InputError for a faulty scene, a scene too large for the memory, a checkpoint that is damaged or of another
+///         scene, or a folder that another run writes to; WriteError when a file cannot be written
 RunOutcome run_drape(const Scene& scene, const RunOptions& options);
 
 }  // namespace selvage

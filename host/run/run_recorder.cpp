@@ -1,6 +1,7 @@
 #include "host/run/run_recorder.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -10,6 +11,7 @@
 #include "host/model/body.hpp"
 #include "host/model/cloth_place.hpp"
 #include "host/run/cloth_picture.hpp"
+#include "host/run/interrupt.hpp"
 #include "host/run/measure.hpp"
 #include "io/errors.hpp"
 #include "io/memory.hpp"
@@ -19,19 +21,14 @@
 namespace selvage {
 namespace {
 
-void make_folder(const std::string& folder)
-{
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw InputError({folder, 0, 0, {}}, error.message(), "a folder that can be made or written");
-}
+// An interrupted run still gets its picture if that takes no longer: whoever sends SIGTERM may send SIGKILL soon.
+// Chosen by hand; the default picture of the default scene takes less than that.
+constexpr std::chrono::seconds picture_of_interrupted{2};
 
-void remove_file(const std::string& path)
-{
-    std::error_code error;
-    std::filesystem::remove(path, error);
-    if (error) throw InputError({path, 0, 0, {}}, error.message(), "a file of an earlier run, or nothing");
-}
+// All that a run leaves but progress.jsonl, which is never renamed.
+const std::vector<std::string> results = {"summary.json", "run.h5",        "run.vtkhdf",    "run.xdmf",
+                                          "sewing.h5",    "sewing.vtkhdf", "sewing.xdmf",   "final.obj",
+                                          "preview.png",  "body.obj",      "checkpoint.h5", "trace.json"};
 
 TrajectoryLayout trajectory_layout(const RunSettings& settings, const Cloth& cloth, const Topology& topology)
 {
@@ -84,19 +81,18 @@ void add_measures(RunSummary& s, const Cloth& cloth, const Phase& phase, const s
 
 }  // namespace
 
-RunRecorder::RunRecorder(const RunSettings& settings, const SceneModel& model, const RunOptions& options, bool resume)
-    : settings_(settings), model_(model), folder_(options.folder)
+RunRecorder::RunRecorder(const RunSettings& settings, const SceneModel& model, RunFolder& folder, bool quiet,
+                         bool resume)
+    : settings_(settings), model_(model), folder_(folder), shown_folder_(folder.path())
 {
-    make_folder(folder_);
+    folder_.remove_temporary_files(results);
     if (!resume)
-        for (const char* stale : {"summary.json", "run.h5", "run.vtkhdf", "run.xdmf", "sewing.h5", "sewing.vtkhdf",
-                                  "sewing.xdmf", "final.obj", "preview.png", "body.obj", "checkpoint.h5", "trace.json"})
-            remove_file(folder_ + "/" + stale);
-    remove_file(folder_ + "/summary.json");
+        for (const std::string& stale : results) folder_.remove(stale);
+    folder_.remove("summary.json");
     ProgressOptions progress;
-    progress.path = folder_ + "/progress.jsonl";
+    progress.path = folder_.path() + "/progress.jsonl";
     progress.append = resume;
-    progress.quiet = options.quiet;
+    progress.quiet = quiet;
     progress.tolerance = settings.drape.tolerance;
     if (!settings.until.equilibrium) progress.end_time = settings.until.time;
     progress_ = std::make_unique<ProgressReport>(progress);
@@ -104,13 +100,24 @@ RunRecorder::RunRecorder(const RunSettings& settings, const SceneModel& model, c
 
 RunRecorder::~RunRecorder() = default;
 
+std::string RunRecorder::trajectory_path() { return folder_.path() + (sewing_phase_ ? "/sewing.h5" : "/run.h5"); }
+
+// The trajectory stays open when its folder is moved; what is written beside it has to go along.
+void RunRecorder::follow_folder()
+{
+    if (folder_.path() == shown_folder_) return;
+    shown_folder_ = folder_.path();
+    trajectory_->moved_to(trajectory_path());
+    say("the folder of the results has been moved: it is now " + shown_folder_);
+}
+
 void RunRecorder::open_phase(RunStage stage, const Topology& topology, int keep_frames)
 {
     sewing_phase_ = stage == RunStage::sew;
     last_frame_ = -1;
     next_frame_ = 0;
     if (sewing_phase_ && !settings_.output.sewing) return;
-    const std::string path = folder_ + (sewing_phase_ ? "/sewing.h5" : "/run.h5");
+    const std::string path = trajectory_path();
     if (keep_frames >= 0)
         trajectory_.emplace(TrajectoryWriter::resume(path, keep_frames));
     else
@@ -133,6 +140,7 @@ double RunRecorder::frame_time_after(double time) const
 void RunRecorder::close_phase()
 {
     if (!trajectory_) return;
+    follow_folder();
     trajectory_->finish();
     if (!sewing_phase_) frames_ = trajectory_->frame_count();
     trajectory_.reset();
@@ -158,6 +166,7 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
     const bool moved = event.time > last_frame_ || since_frame_.relaxed;
     if (!trajectory_ || !(due || (force && moved))) return;
     const TraceScope scope("write_frame");
+    follow_folder();
     FrameScalars scalars;
     scalars.time = event.time > last_frame_ ? event.time : last_frame_ + interval;
     scalars.kinetic_energy = phase.system().kinetic_energy();
@@ -194,23 +203,46 @@ void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const Topolog
         };
         objects.push_back({panel.name, range(positions), faces[p], range(cloth.panel_coordinates), range(repeated)});
     }
-    write_obj(folder_ + "/final.obj", objects);
+    folder_.write([&](const std::string& folder) { write_obj(folder + "/final.obj", objects); });
     if (bodies.empty()) return;
     objects.clear();
     for (std::size_t b = 0; b < bodies.size(); ++b)
         objects.push_back({model_.cloth_model.bodies[b].name, bodies[b].vertices, bodies[b].faces});
-    write_obj(folder_ + "/body.obj", objects);
+    folder_.write([&](const std::string& folder) { write_obj(folder + "/body.obj", objects); });
 }
 
-void RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topology,
+bool RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topology,
                        const std::vector<TriangleMesh>& bodies)
 {
-    if (!settings_.output.picture) return;
+    if (!settings_.output.picture) return true;
     const TraceScope scope("picture");
     PictureOptions options;
     options.width = settings_.output.picture_width;
     options.samples_per_axis = settings_.output.picture_samples;
-    draw_cloth(folder_ + "/preview.png", model_.cloth_model.cloth, bodies, positions, topology, options);
+    options.stop = [came_before = interrupt_requested(), began = std::chrono::steady_clock::now()] {
+        return interrupt_requested() &&
+               (!came_before || std::chrono::steady_clock::now() - began > picture_of_interrupted);
+    };
+    const Image image = draw_cloth(model_.cloth_model.cloth, bodies, positions, topology, options);
+    if (image.width == 0) return false;
+    const TraceScope encoding("opencv");
+    folder_.write([&](const std::string& folder) { write_png(folder + "/preview.png", image); });
+    return true;
+}
+
+std::vector<TriangleMesh> RunRecorder::bodies_at(double time) const
+{
+    std::vector<TriangleMesh> bodies;
+    for (const Body& body : model_.cloth_model.bodies) bodies.push_back(body_mesh_at(body, time));
+    return bodies;
+}
+
+bool RunRecorder::show_last(double time, const Phase& phase)
+{
+    const std::vector<Vec3> positions = phase.positions();
+    const std::vector<TriangleMesh> bodies = bodies_at(time);
+    write_meshes(positions, phase.topology(), bodies);
+    return draw(positions, phase.topology(), bodies);
 }
 
 void RunRecorder::warn(const std::vector<Finding>& findings)
@@ -244,10 +276,7 @@ std::vector<Finding> RunRecorder::conclude(RunStatus status, double time, Phase&
                                            const std::string& message)
 {
     const std::vector<Vec3> positions = phase.positions();
-    std::vector<TriangleMesh> bodies;
-    for (const Body& body : model_.cloth_model.bodies) bodies.push_back(body_mesh_at(body, time));
-    write_meshes(positions, phase.topology(), bodies);
-    draw(positions, phase.topology(), bodies);
+    const std::vector<TriangleMesh> bodies = bodies_at(time);
     const Cloth& cloth = model_.cloth_model.cloth;
     RunSummary s;
     s.status = status;
@@ -294,7 +323,7 @@ std::vector<Finding> RunRecorder::conclude(RunStatus status, double time, Phase&
         if (finding.severity != Severity::note) s.warnings.push_back(describe(finding));
     s.peak_memory_bytes = peak_memory_bytes();
     s.wall_s = wall_seconds;
-    write_summary(folder_ + "/summary.json", s);
+    folder_.write([&](const std::string& folder) { write_summary(folder + "/summary.json", s); });
     return at_end;
 }
 

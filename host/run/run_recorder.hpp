@@ -7,7 +7,6 @@
 
 #include "host/run/measure.hpp"
 #include "host/run/progressive.hpp"
-#include "host/run/run.hpp"
 #include "host/run/run_findings.hpp"
 #include "host/scene/plan.hpp"
 #include "host/scene/run_settings.hpp"
@@ -15,6 +14,7 @@
 #include "host/solver/stepping/step_control.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/progress.hpp"
+#include "io/run/run_folder.hpp"
 #include "io/run/summary.hpp"
 #include "io/run/trajectory.hpp"
 
@@ -40,9 +40,10 @@ struct FrameProgress {
 /// Writes what a run leaves in its folder.
 class RunRecorder {
 public:
+    /// @param folder  outlives the recorder
     /// @param resume  keep what an earlier run left and append to it
-    /// @throws InputError if the folder or a file in it cannot be written
-    RunRecorder(const RunSettings& settings, const SceneModel& model, const RunOptions& options, bool resume);
+    /// @throws InputError if a file in the folder cannot be removed or written
+    RunRecorder(const RunSettings& settings, const SceneModel& model, RunFolder& folder, bool quiet, bool resume);
     ~RunRecorder();
 
     /// Opens the trajectory of a phase: sewing.h5 with the panels apart, or run.h5 with sewn vertices shared.
@@ -63,8 +64,12 @@ public:
     void set_frame_progress(const FrameProgress& progress) { since_frame_ = progress; }
     int frame_count() const { return trajectory_ ? trajectory_->frame_count() : 0; }
 
-    /// Writes final.obj, body.obj and preview.png, and last of all summary.json.
+    /// Writes final.obj, body.obj and preview.png.
     /// @param time  at which the bodies are shown [s]
+    /// @returns false if a signal has broken the picture off
+    bool show_last(double time, const Phase& phase);
+    /// Writes summary.json, the last file of a run.
+    /// @param time  of the bodies [s]
     /// @returns what is wrong with the end of the run; the user has been warned of it
     std::vector<Finding> conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan,
                                   const BodyQuery* query, const RunCounters& counters, const StabilityUse& stability,
@@ -73,15 +78,19 @@ public:
 
 private:
     double frame_time_after(double time) const;
+    std::string trajectory_path();
+    void follow_folder();
     void write_meshes(const std::vector<Vec3>& positions, const Topology& topology,
                       const std::vector<TriangleMesh>& bodies);
     EndCrossings find_crossings(const std::vector<Vec3>& positions, const Topology& topology,
                                 const std::vector<TriangleMesh>& bodies) const;
-    void draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);
+    std::vector<TriangleMesh> bodies_at(double time) const;
+    bool draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);
 
     const RunSettings& settings_;
     const SceneModel& model_;
-    std::string folder_;
+    RunFolder& folder_;
+    std::string shown_folder_;  ///< Where the user knows it to be.
     std::optional<TrajectoryWriter> trajectory_;
     std::unique_ptr<ProgressReport> progress_;
     double next_frame_ = 0;   ///< Simulated time at which the next frame is due [s].

@@ -27,6 +27,13 @@ std::string plain_message(const std::string& message)
     return name == std::string::npos ? message : message.substr(name + 2);
 }
 
+// Returns what a message has in single quotes, which is the number that is too large; all of it if there are none.
+std::string quoted(const std::string& message)
+{
+    const std::size_t open = message.find('\''), close = message.rfind('\'');
+    return open == close ? message : message.substr(open + 1, close - open - 1);
+}
+
 // Whether two names differ in no more than two neighbouring letters.
 bool looks_like(std::string_view name, std::string_view wanted)
 {
@@ -62,7 +69,9 @@ JsonDocument parse_json(std::string_view text, const std::string& file)
         throw InputError(place_of_byte(document.text, std::max<std::size_t>(error.byte, 1) - 1, file),
                          plain_message(error.what()), "valid JSON");
     } catch (const OrderedJson::exception& error) {
-        throw InputError({file, 0, 0, {}}, plain_message(error.what()), "valid JSON");
+        const std::string message = plain_message(error.what());
+        throw InputError(place_of_byte(document.text, document.text.find(quoted(message)), file), message,
+                         "valid JSON");
     }
     return document;
 }

@@ -116,7 +116,8 @@ std::string plain_json(std::string_view text, const std::string& file)
             last = c;
         }
         const std::size_t end = c == '"' ? skip_string(plain, at) : at + 1;
-        if (c == '"' && !keys.empty() && plain.find_first_not_of(blanks, end) == plain.find(':', end))
+        const std::size_t next = c == '"' ? skip_blanks(plain, end) : plain.size();
+        if (next < plain.size() && plain[next] == ':' && !keys.empty())
             keys.back() = plain.substr(at + 1, end - at - 2);
         at = end;
     }

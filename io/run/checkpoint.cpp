@@ -1,6 +1,7 @@
 #include "io/run/checkpoint.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -56,7 +57,7 @@ void append_checksum(const std::string& path)
     file.clear();
     file.seekp(0, std::ios::end);
     file << checksum << std::flush;
-    if (!file) throw InputError({path, 0, 0, {}}, "a file that cannot be written to its end", "a place with room");
+    if (!file) throw WriteError(path, errno);
 }
 
 void require_checksum(const std::string& path)
@@ -93,9 +94,9 @@ void protect(Hdf5File& file, const std::string& name, hid_t type, std::size_t si
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
 {
-    const std::string temporary = temporary_name(path);
+    TemporaryFile temporary(path);
     {
-        Hdf5File file(temporary, Hdf5Access::create);
+        Hdf5File file(temporary.name(), Hdf5Access::create);
         for (const char* group : {reals, integers, words}) file.make_group(group);
         for (const auto& [name, values] : checkpoint.reals)
             protect(file, member(reals, name), H5T_NATIVE_DOUBLE, values.size(), values.data());
@@ -106,10 +107,10 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
             file.set_text(member(words, name), "text", word);
         }
         file.set_text("/", "schema", schema);
-        file.flush();
+        file.close();
     }
-    append_checksum(temporary);
-    move_into_place(temporary, path);
+    append_checksum(temporary.name());
+    temporary.move_into_place();
 }
 
 Checkpoint read_checkpoint(const std::string& path)

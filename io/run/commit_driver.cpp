@@ -32,6 +32,7 @@ struct CommitFile {
     haddr_t size;       ///< Length of the file on disk.
     haddr_t committed;  ///< Bytes from here on are not referred to by anything on disk.
     std::map<haddr_t, HeldWrite> held;
+    int error;  ///< errno of the first write that failed; 0: none. Nothing reaches the disk after it.
 };
 
 CommitFile& commit_file(H5FD_t* file) { return *reinterpret_cast<CommitFile*>(file); }
@@ -52,12 +53,18 @@ bool read_all(const CommitFile& file, haddr_t address, std::size_t size, unsigne
     return true;
 }
 
+bool fail(CommitFile& file, int error)
+{
+    file.error = error == 0 ? EIO : error;
+    return false;
+}
+
 bool write_all(CommitFile& file, haddr_t address, std::size_t size, const unsigned char* bytes)
 {
     while (size > 0) {
         const ssize_t count = ::pwrite(file.descriptor, bytes, size, off_t(address));
         if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return false;
+        if (count <= 0) return fail(file, count < 0 ? errno : EIO);
         address += haddr_t(count), bytes += count, size -= std::size_t(count);
         file.size = std::max(file.size, address);
     }
@@ -66,7 +73,7 @@ bool write_all(CommitFile& file, haddr_t address, std::size_t size, const unsign
 
 bool set_length(CommitFile& file, haddr_t length)
 {
-    if (::ftruncate(file.descriptor, off_t(length)) != 0) return false;
+    if (::ftruncate(file.descriptor, off_t(length)) != 0) return fail(file, errno);
     file.size = length;
     return true;
 }
@@ -149,7 +156,7 @@ bool write_node(CommitFile& file, const Change& change)
 bool write_piece(CommitFile& file, haddr_t address, const HeldWrite& piece)
 {
     Change change{address, std::vector<unsigned char>(piece.bytes.size()), piece.bytes};
-    if (!read_all(file, address, change.old.size(), change.old.data())) return false;
+    if (!read_all(file, address, change.old.size(), change.old.data())) return fail(file, errno);
     return ChunkNode::is(piece) ? write_node(file, change) : write_fields(file, change);
 }
 
@@ -173,13 +180,19 @@ bool commit(CommitFile& file)
     return true;
 }
 
+// HDF5 passes no error number on. It is not thread-safe, so that one will do.
+int open_error = 0;
+
 H5FD_t* driver_open(const char* name, unsigned flags, hid_t, haddr_t)
 {
     int mode = flags & H5F_ACC_RDWR ? O_RDWR : O_RDONLY;
     if (flags & H5F_ACC_TRUNC) mode |= O_TRUNC;
     if (flags & H5F_ACC_CREAT) mode |= O_CREAT;
     if (flags & H5F_ACC_EXCL) mode |= O_EXCL;
+    // What is written is never reached through a link: another program could have put it there meanwhile.
+    if (mode & O_RDWR) mode |= O_NOFOLLOW;
     const int descriptor = ::open(name, mode | O_CLOEXEC | O_NONBLOCK, 0666);  // waits for no other end of a pipe
+    open_error = descriptor < 0 ? errno : 0;
     if (descriptor < 0) return nullptr;
     struct stat status {};
     const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
@@ -228,12 +241,14 @@ herr_t driver_read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t
     return 0;
 }
 
+// HDF5 is not told of a failure: several versions end in a segmentation fault when they close a file that could not be
+// flushed. After one, what HDF5 writes is held in memory, where it finds it again; see commit_error.
 // HDF5 is C: no exception may pass through it.
 herr_t driver_write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::size_t size, const void* buffer)
 try {
     CommitFile& file = commit_file(base);
     const auto* bytes = static_cast<const unsigned char*>(buffer);
-    if (address >= file.committed) return write_all(file, address, size, bytes) ? 0 : -1;
+    if (file.error == 0 && address >= file.committed && write_all(file, address, size, bytes)) return 0;
     hold(file, type, address, size, bytes);
     return 0;
 } catch (const std::bad_alloc&) {
@@ -242,7 +257,9 @@ try {
 
 herr_t driver_flush(H5FD_t* base, hid_t, hbool_t)
 try {
-    return commit(commit_file(base)) ? 0 : -1;
+    CommitFile& file = commit_file(base);
+    if (file.error == 0) commit(file);
+    return 0;
 } catch (const std::bad_alloc&) {
     return -1;
 }
@@ -251,7 +268,14 @@ herr_t driver_truncate(H5FD_t* base, hid_t, hbool_t closing)
 {
     CommitFile& file = commit_file(base);
     const bool change = file.size < file.allocated || (closing && file.size > file.allocated);
-    return !change || set_length(file, file.allocated) ? 0 : -1;
+    if (file.error == 0 && change) set_length(file, file.allocated);
+    return 0;
+}
+
+herr_t driver_get_handle(H5FD_t* base, hid_t, void** handle)
+{
+    *handle = &commit_file(base);
+    return 0;
 }
 
 const H5FD_class_t& driver_class()
@@ -271,6 +295,7 @@ const H5FD_class_t& driver_class()
         c.get_eoa = driver_get_eoa;
         c.set_eoa = driver_set_eoa;
         c.get_eof = driver_get_eof;
+        c.get_handle = driver_get_handle;
         c.read = driver_read;
         c.write = driver_write;
         c.flush = driver_flush;
@@ -289,6 +314,15 @@ void use_commit_driver(hid_t file_access_properties)
     static const hid_t driver = H5FDregister(&driver_class());
     if (driver < 0 || H5Pset_driver(file_access_properties, driver, nullptr) < 0)
         throw std::runtime_error("HDF5 does not accept the commit driver");
+}
+
+int commit_open_error() { return open_error; }
+
+int commit_error(hid_t file)
+{
+    void* handle = nullptr;
+    if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0 || !handle) return EIO;
+    return static_cast<const CommitFile*>(handle)->error;
 }
 
 }  // namespace selvage

@@ -25,4 +25,13 @@ namespace selvage {
 /// @throws std::runtime_error if HDF5 refuses the driver.
 void use_commit_driver(hid_t file_access_properties);
 
+/// Returns the error number of the last opening of a file below the driver; 0 if the system opened it.
+int commit_open_error();
+
+/// Returns the error number of the first write to the file that failed, as on a full disk; 0 if none did.
+///
+/// HDF5 itself is not told, since it may crash when it closes such a file. From the failure on nothing reaches the
+/// disk, where the file stays as it was at the last flush that succeeded.
+int commit_error(hid_t file);
+
 }  // namespace selvage

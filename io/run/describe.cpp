@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/run/trajectory.hpp"
+#include "io/steady_read.hpp"
 
 namespace selvage {
 namespace {
@@ -14,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 Json contents(const std::string& path)
 {
-    const TrajectoryReader run(path);
+    const TrajectoryReader run = read_steadily(path, [&] { return TrajectoryReader(path); });
     const TrajectoryLayout& layout = run.layout();
     const bool empty = run.frame_count() == 0;
     Json json;

@@ -1,10 +1,11 @@
 #include "io/run/hdf5_file.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
-#include "io/errors.hpp"
+#include "io/atomic_file.hpp"
 #include "io/run/commit_driver.hpp"
 #include "io/run/hdf5_checks.hpp"
 
@@ -73,7 +74,7 @@ hid_t open_file(const std::string& path, Hdf5Access access)
     require_hdf5(H5Pset_libver_bounds(properties, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), "versions of the format");
     use_commit_driver(properties);
     if (access == Hdf5Access::append) return H5Fopen(path.c_str(), H5F_ACC_RDWR, properties);
-    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, properties);
+    return H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, properties);
 }
 
 }  // namespace
@@ -89,7 +90,10 @@ Hdf5File::Hdf5File(const std::string& path, Hdf5Access access) : path_(path)
         throw InputError(place, "something that is not a file", "an HDF5 file");
     const hid_t file = open_file(path, access);
     if (file < 0) {
-        if (access == Hdf5Access::create) throw InputError(place, hdf5_error(), "a place that can be written");
+        const int error = commit_open_error();
+        if (access == Hdf5Access::create || (access == Hdf5Access::append && present && error != 0))
+            throw WriteError(path, error);
+        if (present && error != 0) throw InputError(place, std::strerror(error), "an HDF5 file that can be read");
         throw InputError(place, present ? hdf5_error() : "no file", "an HDF5 file");
     }
     file_ = Hdf5Id(file, H5Fclose, path);
@@ -137,7 +141,17 @@ bool Hdf5File::exists(const std::string& object) const
     }
 }
 
-void Hdf5File::flush() { require_hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flush " + path_); }
+void Hdf5File::flush()
+{
+    require_hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flush " + path_);
+    if (const int error = commit_error(file_); error != 0) throw WriteError(path_, error);
+}
+
+void Hdf5File::close()
+{
+    flush();
+    file_.reset();
+}
 
 void Hdf5File::make_group(const std::string& group)
 {

@@ -29,16 +29,20 @@ public:
     /// Stands for an extent that may have any value.
     static constexpr hsize_t any = H5S_UNLIMITED;
 
-    /// `create` truncates; `append` opens for writing. Both write through the commit driver.
-    /// @throws InputError if the file cannot be opened, is not HDF5 or not a regular file.
+    /// `create` makes a new file; `append` opens one for writing. Both write through the commit driver, and to no file
+    /// that is behind a symbolic link.
+    /// @throws InputError if the file cannot be opened, is not HDF5 or not a regular file; WriteError if `create` finds
+    /// a file or cannot make one
     Hdf5File(const std::string& path, Hdf5Access access);
 
     const std::string& path() const { return path_; }
     hid_t id() const { return file_; }
     bool exists(const std::string& object) const;  ///< True if every link of the path exists and leads to an object.
     std::uintmax_t size() const;                   ///< Length of the file on disk [bytes].
+    /// Brings all that has been written into the file.
+    /// @throws WriteError if something since the file was opened could not be written, as on a full disk
     void flush();
-    void close() { file_.reset(); }
+    void close();  ///< Flushes, then closes; the destructor closes without a word on what could not be written.
 
     void make_group(const std::string& group);
     void link(const std::string& target, const std::string& name);  ///< Gives an object a second name.

@@ -13,7 +13,7 @@ std::string hdf5_error()
         return 0;
     };
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_last, &text);
-    return text;
+    return text.empty() ? "an error without a message" : text;
 }
 
 Hdf5Id::Hdf5Id(hid_t id, Closer closer, std::string_view what) : id_(id), closer_(closer)

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
-#include "io/errors.hpp"
+#include "io/atomic_file.hpp"
 
 namespace selvage {
 namespace {
@@ -33,6 +34,19 @@ std::string duration(double seconds)
     if (whole < 60) return fmt::format("{} s", whole);
     if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
     return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+// Opens a file for whole lines at its end. What is there already is only written to if it is a file of its own.
+int open_lines(const std::string& path, bool append)
+{
+    if (!append && ::unlink(path.c_str()) != 0 && errno != ENOENT) throw WriteError(path, errno);
+    const int descriptor =
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    if (descriptor < 0) throw WriteError(path, errno);
+    struct stat status {};
+    if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode)) return descriptor;
+    ::close(descriptor);
+    throw InputError({path, 0, 0, {}}, "something that is not a file", "a file or nothing");
 }
 
 }  // namespace
@@ -67,18 +81,17 @@ double EtaEstimate::seconds_left() const
 }
 
 ProgressReport::ProgressReport(const ProgressOptions& options)
-    : options_(options), estimate_(options.end_time, options.tolerance), file_(nullptr, std::fclose),
-      start_(std::chrono::steady_clock::now()), shown_at_(-ProgressTuning::plain_interval),
-      terminal_(isatty(STDERR_FILENO))
+    : options_(options), estimate_(options.end_time, options.tolerance), start_(std::chrono::steady_clock::now()),
+      shown_at_(-ProgressTuning::plain_interval), terminal_(isatty(STDERR_FILENO))
 {
     if (options_.path.empty()) return;
-    file_.reset(std::fopen(options_.path.c_str(), options_.append ? "ae" : "we"));
-    if (!file_) throw InputError({options_.path, 0, 0, {}}, std::strerror(errno), "a place that can be written");
+    file_ = open_lines(options_.path, options_.append);
 }
 
 ProgressReport::~ProgressReport()
 {
     if (live_line_) std::fputc('\n', stderr);
+    if (file_ >= 0) ::close(file_);
 }
 
 double ProgressReport::elapsed() const
@@ -94,7 +107,7 @@ void ProgressReport::update(const ProgressState& state)
     phase_ = state.phase;
     estimate_.add(wall, state);
     const double seconds_left = estimate_.seconds_left();
-    if (file_) write_line(state, wall, seconds_left);
+    if (file_ >= 0) write_line(state, wall, seconds_left);
     const double interval = terminal_ ? ProgressTuning::live_interval : ProgressTuning::plain_interval;
     if (options_.quiet || (!phase_begins && wall - shown_at_ < interval)) return;
     shown_at_ = wall;
@@ -103,16 +116,24 @@ void ProgressReport::update(const ProgressState& state)
 
 void ProgressReport::write_line(const ProgressState& state, double wall, double seconds_left)
 {
-    const nlohmann::ordered_json line = {{"phase", state.phase},
+    const nlohmann::ordered_json json = {{"phase", state.phase},
                                          {"time", number(state.time)},
                                          {"step", state.step},
                                          {"residual", number(state.residual)},
                                          {"eta_s", number(seconds_left)},
                                          {"frames", state.frames},
                                          {"wall_s", number(wall)}};
-    std::fputs((line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n").c_str(),
-               file_.get());
-    std::fflush(file_.get());
+    const std::string line = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    // Whole lines only: readers look at the file meanwhile, and a resumed run appends to it.
+    ssize_t written = ::write(file_, line.data(), line.size());
+    while (written < 0 && errno == EINTR) written = ::write(file_, line.data(), line.size());
+    if (written == ssize_t(line.size())) return;
+    const int error = written < 0 ? errno : ENOSPC;
+    if (const off_t end = ::lseek(file_, 0, SEEK_END);
+        written > 0 && end >= written && ::ftruncate(file_, end - written)) {
+        // The cut line stays.
+    }
+    throw WriteError(options_.path, error);
 }
 
 void ProgressReport::show(const ProgressState& state, double wall, double seconds_left)

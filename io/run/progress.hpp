@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <deque>
 #include <limits>
-#include <memory>
 #include <string>
 
 namespace selvage {
@@ -51,7 +50,7 @@ private:
 /// Reports the progress of a run to other programs (a file of JSON lines) and to the user (stderr).
 class ProgressReport {
 public:
-    /// @throws InputError if the file cannot be written.
+    /// @throws WriteError if the file cannot be written.
     explicit ProgressReport(const ProgressOptions& options);
     ProgressReport(const ProgressReport&) = delete;
     ProgressReport& operator=(const ProgressReport&) = delete;
@@ -59,6 +58,7 @@ public:
 
     /// Adds a line to the file; shows the state on a terminal at most 5 times a second, otherwise every 2 s, and
     /// at once when a phase begins.
+    /// @throws WriteError if the line cannot be written; the file then ends with the line before
     void update(const ProgressState& state);
 
     /// Writes a line of text to stderr without overwriting the line that is updated in place; nothing if quiet.
@@ -74,7 +74,7 @@ private:
 
     ProgressOptions options_;
     EtaEstimate estimate_;
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+    int file_ = -1;  ///< Descriptor of the file; -1: none.
     std::chrono::steady_clock::time_point start_;
     std::string phase_;
     double shown_at_;  ///< Wall time since the start [s].

@@ -81,6 +81,9 @@ public:
 
     /// False where the file system has no hard links, so that there is no run.vtkhdf.
     bool has_second_name() const { return has_second_name_; }
+    /// Tells where the file is after its folder has been moved.
+    void moved_to(const std::string& path) { path_ = path; }
+
     int frame_count() const { return int(times_.size()); }
     double last_time() const { return times_.empty() ? 0 : times_.back(); }  ///< Time of the last committed frame [s].
 

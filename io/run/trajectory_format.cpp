@@ -146,6 +146,7 @@ void write_contents(const std::string& path, const TrajectoryLayout& layout)
     // The view is made at the end of a run, in a separate group, so that a kill meanwhile cannot damage other groups.
     file.make_group("/selvage/views");
     file.link_softly("/selvage/views/positions", "/selvage/positions");
+    file.close();
 }
 
 }  // namespace
@@ -158,6 +159,7 @@ void write_header(const std::string& path, const TrajectoryLayout& layout)
     // after every other header.
     Hdf5File file(path, Hdf5Access::append);
     file.set_integer(steps, "NSteps", 0);
+    file.close();
 }
 
 Hdf5Id open_points(const Hdf5File& file)

@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -24,8 +25,9 @@ std::string index_path(const std::string& path)
 // Writes the header under a temporary name first, so that readers never see a file with an incomplete header.
 void put_header(const std::string& path, const TrajectoryLayout& layout)
 {
-    write_header(temporary_name(path), layout);
-    move_into_place(temporary_name(path), path);
+    TemporaryFile temporary(path);
+    write_header(temporary.name(), layout);
+    temporary.move_into_place();
 }
 
 // Gives a file a second name, which takes the place of one that another file had.
@@ -121,14 +123,14 @@ TrajectoryWriter TrajectoryWriter::create(const std::string& path, const Traject
 
 TrajectoryWriter TrajectoryWriter::resume(const std::string& path, int keep_frames)
 {
-    const std::string temporary = temporary_name(path);
+    TemporaryFile temporary(path);
     const TrajectoryReader old(path);
     if (keep_frames < 0 || keep_frames > old.frame_count())
         throw InputError({path, 0, 0, {}}, std::to_string(old.frame_count()) + " frames",
                          "at least the " + std::to_string(keep_frames) + " frames of the checkpoint");
-    write_header(temporary, old.layout());
-    copy_frames(old, temporary, keep_frames);
-    move_into_place(temporary, path);
+    write_header(temporary.name(), old.layout());
+    copy_frames(old, temporary.name(), keep_frames);
+    temporary.move_into_place();
     std::vector<double> times;
     for (int frame = 0; frame < keep_frames; ++frame) times.push_back(old.scalars(frame).time);
     return {path, old.layout(), std::move(times)};
@@ -173,7 +175,11 @@ void TrajectoryWriter::append_row(const FrameScalars& scalars)
 
 void TrajectoryWriter::write_index_file()
 {
-    write_xdmf(index_path(path_), {file_name(path_), point_count_, triangle_count_, times_});
+    try {
+        write_xdmf(index_path(path_), {file_name(path_), point_count_, triangle_count_, times_});
+    } catch (const WriteError& error) {
+        if (error.error() != ENOENT) throw;  // else the folder is just being moved, and the next time is soon
+    }
     index_written_ = std::chrono::steady_clock::now();
 }
 

@@ -86,6 +86,11 @@ class Reading(InFolder):
             self.assertEqual((len(names), names[0], names[-1]), (4160, "p0", "p64_64"))
         self.assertEqual(len(json.loads(self.call("info", "out/run.h5", "--json")[0])["panels"]), 4160)
 
+    def test_fabrics_are_listed_without_values_that_are_none(self):
+        listed = self.call("fabrics")[0]
+        self.assertNotIn("nan", listed)
+        self.assertIn("bending_twist = automatic", listed)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -76,6 +76,19 @@ TEST_CASE("nothing is found in panels that are sewn as they face each other, whi
     CHECK(wrong_side.findings().empty());
 }
 
+TEST_CASE("a band in one piece around a tube is taken neither for crossed nor for mirrored")
+{
+    Tube tube;
+    tube.more_panels = R"(,
+"band": {"translation": [0, 122, 14], "vertices": [[-30, 0], [0, 0], [30, 0], [30, 4], [-30, 4]],
+  "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 4]},
+            {"endpoints": [4, 0]}]})";
+    tube.stitches.pop_back();
+    tube.stitches += R"(, [{"panel": "band", "edge": 0}, {"panel": "front", "edge": 2}],
+[{"panel": "band", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "band", "edge": 2}, {"panel": "band", "edge": 4}]])";
+    for (const Finding& finding : tube.findings()) CHECK(describe(finding) == "");
+}
+
 TEST_CASE("a panel drawn clockwise that is sewn mirrored to one that is not is told with both names")
 {
     for (const auto& edges : {std::vector<std::array<int, 2>>{{1, 3}, {3, 1}}, {{1, 1}, {3, 3}}}) {

@@ -261,9 +261,10 @@ TEST_CASE("malformed pattern files are refused with line, column or key path")
 TEST_CASE("panels with impossible outlines are refused with the key path of the fault")
 {
     check_patterns({
-        {pattern_with("[30, 0]", "[3000, 0]"), {"pattern.panels.front.vertices", "30 m", "units_in_meter = 1000"}},
+        {pattern_with("[30, 0]", "[3000, 0]"),
+         {"pattern.panels.front.vertices", "30 m", "units_in_meter = 1000", "39.37 (inches) would mean 76.2002 m"}},
         {pattern_with(": 100,", ": 100000,"), {"pattern.panels.front.vertices", "0.0003 m", "units_in_meter = 100"}},
-        {pattern_with("[30, 0]", "[1e999, 0]"), {"valid JSON"}},
+        {pattern_with("[30, 0]", "[1e999, 0]"), {":2:85:", "1e999", "valid JSON"}},
         {pattern_with("[30, 0]", "[NaN, 0]"), {":2:", "valid JSON"}},
         {pattern_with("[30, 0]", "[null, 0]"), {"pattern.panels.front.vertices[1][0]", "null", "a number"}},
         {pattern_with("{\"endpoints\": [1, 2]}", "{\"endpoints\": [1, 3]}"),
