@@ -52,8 +52,11 @@ std::string checksum_of(std::istream& contents, std::uintmax_t size)
 
 void append_checksum(const std::string& path)
 {
+    std::error_code gone;
+    const std::uintmax_t size = std::filesystem::file_size(path, gone);
+    if (gone) throw WriteError(path, gone.value());
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-    const std::string checksum = checksum_of(file, std::filesystem::file_size(path));
+    const std::string checksum = checksum_of(file, size);
     file.clear();
     file.seekp(0, std::ios::end);
     file << checksum << std::flush;

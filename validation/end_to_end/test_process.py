@@ -312,7 +312,7 @@ class Disks(Folder):
     def test_a_full_disk_is_told_wherever_it_comes_and_frames_so_far_stay(self):
         self.assertEqual(run("drape", *TIMED, "-o", self.path("whole")).returncode, 0)
         most, resumed = -1, 0
-        for room in 0, 1000, 20000, 100000, 250000:
+        for room in 0, 1000, 20000, 100000, 250000, 500000, 1000000, 2000000:
             folder = self.path(f"full{room}")
             result = run("drape", *TIMED, "-o", folder, env=self.shim(FULL_AFTER=str(room)))
             if result.returncode == 0:

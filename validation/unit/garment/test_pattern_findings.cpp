@@ -85,7 +85,8 @@ TEST_CASE("a band in one piece around a tube is taken neither for crossed nor fo
             {"endpoints": [4, 0]}]})";
     tube.stitches.pop_back();
     tube.stitches += R"(, [{"panel": "band", "edge": 0}, {"panel": "front", "edge": 2}],
-[{"panel": "band", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "band", "edge": 2}, {"panel": "band", "edge": 4}]])";
+[{"panel": "band", "edge": 1}, {"panel": "back", "edge": 2}],
+[{"panel": "band", "edge": 2}, {"panel": "band", "edge": 4}]])";
     for (const Finding& finding : tube.findings()) CHECK(describe(finding) == "");
 }
 
