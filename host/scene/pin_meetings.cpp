@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "host/solver/contact/pin_paths.hpp"
-#include "io/number_text.hpp"
 
 namespace selvage {
 namespace {
@@ -80,26 +80,37 @@ std::vector<std::array<int, 2>> near_pairs(const std::map<int, Vec3>& places, co
     return pairs;
 }
 
+// The nearest of some pairs in a part of the way.
+Meeting nearest_of(const HeldVertices& held, const std::vector<std::array<int, 2>>& pairs, double time, double dt)
+{
+    Meeting nearest{0, 0, 0, std::numeric_limits<double>::infinity()};
+    for (int k = 0; k <= fine_looks && !pairs.empty(); ++k) {
+        const double at = time + dt * k / fine_looks;
+        const std::map<int, Vec3> places = held.places(at);
+        for (const auto& [a, b] : pairs) {
+            const double distance = (places.at(a) - places.at(b)).norm();
+            if (distance < nearest.distance) nearest = {a, b, at, distance};
+        }
+    }
+    return nearest;
+}
+
+// The first pair that comes nearer than `reach`, when it is nearest.
 std::optional<Meeting> first_meeting(const HeldVertices& held, double end, double edge, double reach)
 {
     const std::map<int, Vec3> start = held.places(0);
+    std::optional<Meeting> met;
     double time = 0;
     for (int look = 0; look < most_looks && time < end; ++look) {
         const double dt = held.paths().longest_step(time, end - time, way_between_looks * edge);
-        const auto pairs = near_pairs(held.places(time + dt), start, worth_a_look * edge, neighbours * edge);
-        Meeting nearest{0, 0, 0, reach};
-        for (int k = 0; k <= fine_looks && !pairs.empty(); ++k) {
-            const double at = time + dt * k / fine_looks;
-            const std::map<int, Vec3> places = held.places(at);
-            for (const auto& [a, b] : pairs) {
-                const double distance = (places.at(a) - places.at(b)).norm();
-                if (distance < nearest.distance) nearest = {a, b, at, distance};
-            }
-        }
-        if (nearest.distance < reach) return nearest;
+        const auto pairs = met ? std::vector<std::array<int, 2>>{{met->a, met->b}}
+                               : near_pairs(held.places(time + dt), start, worth_a_look * edge, neighbours * edge);
+        const Meeting nearest = nearest_of(held, pairs, time, dt);
+        if (met && !(nearest.distance < met->distance)) return met;
+        if (nearest.distance < reach) met = nearest;
         time += dt;
     }
-    return {};
+    return met;
 }
 
 std::string vertex_name(const Cloth& cloth, int vertex)

@@ -18,7 +18,6 @@ struct Element {
     const SheetScene& sheet() const { return scene.sheets[index]; }
     const BodyScene& body() const { return scene.bodies[index]; }
     const PinMotionScene& motion() const { return scene.pin_motions[index]; }
-    bool gives(const std::string& key) const { return scene.places.count("fabric." + name + "." + key) > 0; }
 };
 
 struct KeyRule {
@@ -67,11 +66,6 @@ Scheme scheme(const Element& e)
 #undef SCHEME
     const auto* found = std::ranges::find(schemes, e.scene.solver.integrator, &Scheme::choice);
     return found == std::end(schemes) ? schemes[0] : *found;  // automatic: implicit and with an estimate
-}
-
-bool has_curve(const Element& e)
-{
-    return e.gives("stretch_weft_curve") || e.gives("stretch_warp_curve") || e.gives("shear_curve");
 }
 
 bool has_limit(const Element& e)
@@ -156,7 +150,6 @@ constexpr KeyRule rules[] = {
 
     {"fabric", "hysteresis_weft hysteresis_warp", [](const Element& e) { return e.scene.bending.hysteresis; },
      "bending.hysteresis = true", "bending.hysteresis"},
-    {"fabric", "curve", has_curve, "a curve in the same table", ""},
     {"fabric", "stretch_limit_factor", has_limit, "`stretch_limit` or `shear_limit`", ""},
 };
 

@@ -1,6 +1,7 @@
 """No key of a scene is without effect: for every key that `selvage schema` lists some plan or run changes with it."""
 import concurrent.futures
 import copy
+import functools
 import hashlib
 import json
 import os
@@ -45,7 +46,7 @@ def pattern(turn=(0, 0, 0)):
                        "properties": {"units_in_meter": 100}})
 
 
-FILES = {"body.obj": tetrahedron(0.2), "taller.obj": tetrahedron(0.2, -0.05), "sheet.obj": grid_mesh(4, 0.2),
+FILES = {"body.obj": tetrahedron(0.2), "inches.obj": tetrahedron(8), "taller.obj": tetrahedron(0.2, -0.05), "sheet.obj": grid_mesh(4, 0.2),
          "smaller.obj": grid_mesh(4, 0.15), "pose_1.obj": tetrahedron(0.2), "pose_2.obj": tetrahedron(0.25),
          "other_1.obj": tetrahedron(0.2), "other_2.obj": tetrahedron(0.3), "plain.json": pattern(),
          "turned.json": pattern((20, 30, 40))}
@@ -120,6 +121,10 @@ def own(base=None, **keys):
     return text
 
 
+CURVED = own(stretch_warp_curve=[[0.001, 0.1], [0.01, 3], [0.1, 50]])
+del CURVED["fabric"]["own"]["stretch_warp"]
+
+
 # For each key: a scene in which it counts, and the value to which it is set there. The key of a repeated table is that
 # of the table's first element.
 CASES = {
@@ -161,7 +166,7 @@ CASES = {
              "normal_coefficient": (WIND, 2), "tangential_coefficient": (WIND, 1), "gust": (HANG, 3),
              "gust_time": (GUSTS, 0.5), "seed": (GUSTS, 2)},
     "output": {"precision": (HANG, "60um"), "frames": (HANG, False), "sewing": (SEW, False),
-               "picture": (PICTURE, False),
+               "picture": (DROP, True),
                "picture_width": (PICTURE, 80), "picture_samples": (PICTURE, 2),
                "checkpoint_interval": (scene(HANG, output={"keep_checkpoint": True}), 0),
                "keep_checkpoint": (HANG, True)},
@@ -172,7 +177,7 @@ CASES = {
               "unit": (MESH, "inch"), "up_axis": (MESH, "y"), "center": (DROP, [0, 0, 2]),
               "rotation": (DROP, [20, 0, 0])},
     "body": {"name": (on_body("plane"), "floor"), "shape": (on_body("cylinder"), "cone"),
-             "mesh": (on_body("mesh"), "taller.obj"), "unit": (on_body("mesh"), "inch"),
+             "mesh": (on_body("mesh"), "taller.obj"), "unit": (on_body("mesh", mesh="inches.obj", unit="inch"), "cm"),
              "up_axis": (on_body("mesh"), "x"), "center": (on_body("sphere"), [0, 0, -0.1]),
              "end": (on_body("capsule"), [0, 1, 0]), "normal": (on_body("plane"), [0, 0.1, 1]),
              "rotation": (on_body("mesh"), [0, 0, 30]), "scale": (on_body("mesh"), 0.9),
@@ -190,7 +195,7 @@ CASES = {
                     "stretch_weft": (own(), 300), "stretch_warp": (own(), 300), "stretch_coupling": (own(), 50),
                     "shear": (own(), 40), "stretch_weft_curve": (own(), [[0.01, 1], [0.1, 30]]),
                     "stretch_warp_curve": (own(), [[0.01, 1], [0.1, 30]]), "shear_curve": (own(), [[0.1, 1], [0.3, 8]]),
-                    "curve": (own(stretch_warp_curve=[[0.001, 0.1], [0.01, 3], [0.1, 50]]), "smooth"),
+                    "curve": (CURVED, "smooth"),
                     "stretch_limit": (own(), 1e-4), "shear_limit": (own(), 1e-3),
                     "stretch_limit_factor": (own(stretch_limit=1e-4), 100), "bending_weft": (own(), 1e-4),
                     "bending_warp": (own(), 1e-4), "bending_coupling": (own(), 5e-6), "bending_twist": (own(), 1e-4),
@@ -200,6 +205,8 @@ CASES = {
 }
 # What has to change beside the key, since the key cannot stand without it.
 ALONG = {("sheet", "shape"): lambda text: text["sheet"].__setitem__(0, {"shape": "mesh", "mesh": "sheet.obj"})}
+for number in ["stretch_weft", "stretch_warp", "shear"]:   # which its curve replaces
+    ALONG["fabric.NAME", number + "_curve"] = lambda text, number=number: text["fabric"]["own"].pop(number)
 
 
 def toml(value):
@@ -244,6 +251,8 @@ def digest(path):
 
 
 class Keys(unittest.TestCase):
+    maxDiff = None
+
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -259,12 +268,14 @@ class Keys(unittest.TestCase):
         (self.root / f"{name}.toml").write_text(text)
         return name
 
+    @functools.lru_cache(None)
     def plan(self, text):
         name = self.write(text)
         result = subprocess.run([PROGRAM, "plan", f"{name}.toml", "--json"], cwd=self.root, capture_output=True,
                                 text=True, timeout=100)
         return result.returncode, (result.stdout + result.stderr).replace(name, "scene")
 
+    @functools.lru_cache(None)
     def outcome(self, text):
         """What a run leaves, but for times."""
         name = self.write(text)
@@ -329,7 +340,7 @@ class Keys(unittest.TestCase):
                  (on_body("mesh", sequence_rate=10), "body[0].sequence_rate", "sequence"),
                  (on_body("sphere", interpolation="smooth"), "body[0].interpolation", "keyframe"),
                  (own(hysteresis_weft=1e-3), "fabric.own.hysteresis_weft", "bending.hysteresis"),
-                 (own(curve="smooth"), "fabric.own.curve", "a curve"),
+                 (own(curve="smooth"), "fabric.own.curve", "shear_curve"),
                  (scene(fabric={"coton": dict(CLOTH)}), "fabric.coton", "`cotton`"),
                  (scene(sheet=[{"radius": 0.1}]), "sheet[0].radius", "disc"),
                  (scene(sheet=[{"shape": "mesh", "mesh": "sheet.obj", "mesh_family": "cross"}]), "sheet[0].mesh_family",

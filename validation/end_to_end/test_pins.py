@@ -55,7 +55,7 @@ class Pins(unittest.TestCase):
         moved, panel = self.drape(SHEETS + '[[pins.hold]]\npanel = "upper"\ngroup = "corners"\nvertices = "2"\n')
         held = np.flatnonzero(moved == 0)
         np.testing.assert_array_equal(held - 25, [0, 2, 5, 30, 35])
-        self.assertGreater(moved[panel == 0].min(), 0.2)
+        self.assertGreater(moved[panel == 0].min(), 0.15)
 
     def test_a_panel_of_a_garment_is_held(self):
         garment = '[garment]\npattern = "flag.json"\nresolution = 0.05\n'
@@ -68,7 +68,7 @@ class Pins(unittest.TestCase):
         motion = '[[pins.motion]]\npanel = "sheet[0]"\nvertices = "12"\nvelocity = [0, 0, 1]\n'
         moved, panel = self.drape(SHEETS + motion)
         self.assertAlmostEqual(moved[12], 0.3, places=4)
-        self.assertGreater(moved[panel == 1].min(), 0.2)
+        self.assertGreater(moved[panel == 1].min(), 0.15)
 
     def test_held_vertices_that_are_driven_together_are_told_of(self):
         scene = ('[[sheet]]\nwidth = 0.4\nheight = 0.4\nresolution = 13\n'
@@ -76,7 +76,7 @@ class Pins(unittest.TestCase):
                  '[[pins.motion]]\ngroup = "right_edge"\nvelocity = [-0.6, 0, 0]\nend = %s\n')
         meets = self.selvage("check", scene % (1, 1))
         self.assertRegex(meets.stdout, r"held vertices \d+ of sheet\[0\] and \d+ of sheet\[0\] are driven against")
-        self.assertRegex(meets.stdout, r"at 0\.3[23]")
+        self.assertRegex(meets.stdout, r"[01]\.\d mm apart at 0\.33")
         apart = self.selvage("check", scene % (0.2, 0.2))
         self.assertNotIn("driven against", apart.stdout)
 
