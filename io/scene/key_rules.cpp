@@ -36,8 +36,6 @@ bool body_is(const Element& e, Shapes... shapes)
     return ((e.body().shape == shapes) || ...);
 }
 
-bool moves(const Element& e) { return e.motion().turns != 0 || !e.motion().velocity.isZero(); }
-
 bool to_rest(const Element& e) { return e.scene.until().equilibrium; }
 
 // May have seams: a mesh has some where its texture is cut.
@@ -114,7 +112,6 @@ constexpr KeyRule rules[] = {
     {"garment", "copy_offset", [](const Element& e) { return e.scene.garment.copies > 1; }, "copies above 1",
      "garment.copies"},
 
-    {"pins.motion", "start end", moves, "`velocity` or `turns`", ""},
     {"pins.motion", "axis point", [](const Element& e) { return e.motion().turns != 0; }, "`turns`", ""},
 
     {"solver", "tolerance progressive sleep load_steps max_time", to_rest, "solver.until = \"equilibrium\"",
