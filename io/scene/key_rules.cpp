@@ -74,8 +74,9 @@ bool has_limit(const Element& e)
 
 constexpr const char* needs_garment = "a scene with seams: [garment], or a sheet of shape \"mesh\"";
 
-// Where each key counts that does not count everywhere. Keys of which the plan tells why they have no effect (scales of
-// a model that is off) are not here, nor are properties of fabrics that a scene happens not to need.
+// Where each key counts that does not count everywhere. A flag that is off is obeyed everywhere. Keys of which the plan
+// tells why they have no effect (scales of a model that is off) are not here, nor are properties of fabrics that a
+// scene happens not to need.
 using enum BodyShape;
 constexpr KeyRule rules[] = {
     {"sheet", "width height", [](const Element& e) { return sheet_is(e, SheetShape::rectangle); },
@@ -114,11 +115,14 @@ constexpr KeyRule rules[] = {
 
     {"pins.motion", "axis point", [](const Element& e) { return e.motion().turns != 0; }, "`turns`", ""},
 
-    {"solver", "tolerance progressive sleep load_steps max_time", to_rest, "solver.until = \"equilibrium\"",
-     "solver.until"},
+    {"solver", "tolerance load_steps max_time", to_rest, "solver.until = \"equilibrium\"", "solver.until"},
+    {"solver", "progressive", [](const Element& e) { return !e.scene.solver.progressive || to_rest(e); },
+     "solver.until = \"equilibrium\"", "solver.until"},
+    {"solver", "sleep", [](const Element& e) { return !e.scene.solver.sleep || to_rest(e); },
+     "solver.until = \"equilibrium\"", "solver.until"},
     {"solver", "unstable_step", [](const Element& e) { return scheme(e).is_explicit; },
      "an explicit solver.integrator, from symplectic_euler to rk4", "solver.integrator"},
-    {"solver", "adaptive", [](const Element& e) { return scheme(e).error_power > 0; },
+    {"solver", "adaptive", [](const Element& e) { return !e.scene.solver.adaptive || scheme(e).error_power > 0; },
      "a solver.integrator that estimates its error", "solver.integrator"},
     {"solver", "step_error", [](const Element& e) { return e.scene.solver.adaptive; }, "solver.adaptive = true",
      "solver.adaptive"},
@@ -127,18 +131,19 @@ constexpr KeyRule rules[] = {
      "an implicit solver.integrator, or equations to solve on the way to rest", "solver.integrator solver.until"},
     {"solver", "energy_tolerance", sews, needs_garment, ""},
 
-    {"contact", "body", [](const Element& e) { return !e.scene.bodies.empty(); }, "[[body]]", ""},
+    {"contact", "body", [](const Element& e) { return !e.scene.contact.body || !e.scene.bodies.empty(); }, "[[body]]",
+     ""},
     {"contact", "response gap stiffness", meets_anything, "contact.self = true, or bodies and contact.body = true",
      "contact.self contact.body"},
 
     {"seams", "*", sews, needs_garment, ""},
-    {"output", "sewing", sews, needs_garment, ""},
+    {"output", "sewing", [](const Element& e) { return !e.scene.output.sewing || sews(e); }, needs_garment, ""},
     {"output", "picture_width picture_samples", [](const Element& e) { return e.scene.output.picture; },
      "output.picture = true", "output.picture"},
 
     {"wind", "density normal_coefficient tangential_coefficient", [](const Element& e) { return e.scene.has_air(); },
      "wind.velocity, wind.gust or wind.still_air = true", "wind.velocity wind.gust wind.still_air"},
-    {"wind", "still_air", [](const Element& e) { return !e.scene.wind_blows(); },
+    {"wind", "still_air", [](const Element& e) { return !e.scene.wind.still_air || !e.scene.wind_blows(); },
      "air that does not blow: moving air resists motion anyhow", "wind.velocity wind.gust"},
     {"wind", "gust", [](const Element& e) { return e.scene.wind.gust == 0 || !to_rest(e); },
      "solver.until = SECONDS: nothing comes to rest in gusts", "solver.until"},
