@@ -46,7 +46,8 @@ def pattern(turn=(0, 0, 0)):
                        "properties": {"units_in_meter": 100}})
 
 
-FILES = {"body.obj": tetrahedron(0.2), "inches.obj": tetrahedron(8), "taller.obj": tetrahedron(0.2, -0.05), "sheet.obj": grid_mesh(4, 0.2),
+FILES = {"body.obj": tetrahedron(0.2), "inches.obj": tetrahedron(8),
+         "taller.obj": tetrahedron(0.2, -0.05), "sheet.obj": grid_mesh(4, 0.2),
          "smaller.obj": grid_mesh(4, 0.15), "pose_1.obj": tetrahedron(0.2), "pose_2.obj": tetrahedron(0.25),
          "other_1.obj": tetrahedron(0.2), "other_2.obj": tetrahedron(0.3), "plain.json": pattern(),
          "turned.json": pattern((20, 30, 40))}
