@@ -303,7 +303,8 @@ RunOutcome DrapeRun::conclude(RunStatus status, std::string message)
     if (status == RunStatus::diverged) code = 3;
     if (status == RunStatus::interrupted) code = interrupt_exit_code();
     std::string told = message;
-    for (const Finding& finding : findings_that_mattered(model_.findings, complete, at_end))
+    const bool ended_well = complete || status == RunStatus::interrupted;
+    for (const Finding& finding : findings_that_mattered(model_.findings, ended_well, at_end))
         told += (told.empty() ? "" : "\n") + ("warned of at the start: " + describe(finding));
     return {status, code, told};
 }

@@ -70,10 +70,26 @@ void explain_torn(const DivergenceFacts& facts, FailureReport& report)
     if (report.cure.empty()) report.cure = "a stiffer fabric (stretch_weft, stretch_warp)";
 }
 
+// Whether cloth is between two bodies of which one moves.
+bool explain_closing(const DivergenceFacts& facts, FailureReport& report)
+{
+    const std::vector<BodyAt> near = those_near(facts.bodies, facts.gap);
+    const BodyAt* moving = fastest_of(near);
+    if (near.size() < 2 || !moving) return false;
+    const BodyAt& other = near[moving == &near[0] ? 1 : 0];
+    report.cause = fmt::format("the bodies `{}` and `{}` close on the cloth between them", moving->name, other.name);
+    report.cure = fmt::format(
+        "leave at least {} between them, twice contact.gap, in their keyframes or sequence, or "
+        "lower contact.gap",
+        millimetres(2 * facts.gap));
+    return true;
+}
+
 // Newton's method does not come to an end.
 void explain_unsolved(const DivergenceFacts& facts, FailureReport& report)
 {
     const BodyAt* moving = fastest_of(facts.bodies);
+    if (explain_closing(facts, report)) return;
     if (facts.stretch > ReportTuning::torn) return explain_torn(facts, report);
     if (moving && moving->speed * facts.step.longest > facts.gap)
         report.cause = fmt::format("the body `{}` moves at {:.3g} m/s, {} in a step", moving->name, moving->speed,
@@ -90,18 +106,9 @@ void explain_block(const DivergenceFacts& facts, FailureReport& report)
     std::vector<std::string> held;
     for (const VertexAt& vertex : facts.vertices)
         if (vertex.held) held.push_back(vertex.name);
-    const std::vector<BodyAt> near = those_near(facts.bodies, facts.gap);
     const std::string& pushing = facts.step.obstacle_body;
-    const BodyAt* moving = fastest_of(near);
-    if (near.size() >= 2 && moving) {
-        const BodyAt& other = near[moving == &near[0] ? 1 : 0];
-        report.cause =
-            fmt::format("the bodies `{}` and `{}` close on the cloth between them", moving->name, other.name);
-        report.cure = fmt::format(
-            "leave at least {} between them, twice contact.gap, in their keyframes or sequence, "
-            "or lower contact.gap",
-            millimetres(2 * facts.gap));
-    } else if (facts.pins_move && held.size() >= 2) {
+    if (explain_closing(facts, report)) return;
+    if (facts.pins_move && held.size() >= 2) {
         report.cause = fmt::format("held vertices are driven against each other: {} and {}", held.front(), held.back());
         report.cure =
             fmt::format("end their [[pins.motion]] before {:.3g} s, or lead them past each other", facts.time);

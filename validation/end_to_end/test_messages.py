@@ -165,7 +165,7 @@ class Messages(unittest.TestCase):
         self.assertRegex(errors, r"diverged at 0\.1\d* s \(drape\)")
         self.assertRegex(errors, r"driven against each other: vertex \d+ of `sheet\[0\]` at \(.*vertex \d+ of")
         self.assertIn("[[pins.motion]]", errors)
-        self.assertEqual(summary["message"], errors.strip())
+        self.assertIn(summary["message"], errors)
 
     def test_bodies_that_close_on_cloth_are_named(self):
         code, errors, _ = self.drape(PINCHED)
