@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/run/hdf5_file.hpp"
+#include "io/run/hdf5_reader.hpp"
 #include "io/run/trajectory.hpp"
 
 extern char** environ;
@@ -35,7 +35,7 @@ void read_run(const std::string& path, ChildRun& run)
         const TrajectoryReader reader(path);
         if (reader.frame_count() > 0) run.contacts = reader.scalars(reader.frame_count() - 1).contacts;
     }
-    const Hdf5File file(path, Hdf5Access::read);
+    const Hdf5Reader file(path);
     if (!file.exists("/selvage/profile")) return;
     run.phases = file.texts("/selvage/profile", "phase");
     run.self_s = file.read_reals("/selvage/profile/self_s");

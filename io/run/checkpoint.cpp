@@ -10,6 +10,7 @@
 #include "io/content_hash.hpp"
 #include "io/errors.hpp"
 #include "io/run/hdf5_file.hpp"
+#include "io/run/hdf5_reader.hpp"
 
 namespace selvage {
 namespace {
@@ -23,7 +24,7 @@ constexpr std::size_t checksum_length = checksum_name.size() + 16;
 
 std::string member(const char* group, const std::string& name) { return std::string(group) + "/" + name; }
 
-Checkpoint read_groups(const Hdf5File& file)
+Checkpoint read_groups(const Hdf5Reader& file)
 {
     Checkpoint checkpoint;
     for (const std::string& name : file.members(reals)) checkpoint.reals[name] = file.read_reals(member(reals, name));
@@ -119,7 +120,7 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
 Checkpoint read_checkpoint(const std::string& path)
 {
     require_checksum(path);
-    const Hdf5File file(path, Hdf5Access::read);
+    const Hdf5Reader file(path);
     const std::vector<std::string> found = file.texts("/", "schema");
     if (found.size() != 1 || found.front() != schema)
         throw InputError({path, 0, 0, {}}, "another kind of HDF5 file", "a checkpoint written by selvage");

@@ -12,7 +12,7 @@
 
 namespace selvage {
 
-class Hdf5File;
+class Hdf5Reader;
 
 /// Returns the distance of neighbouring grid values [m]: 0, 2^-17 or 2^-14. A power of two keeps rounded positions
 /// exact in float32, and they compress well.
@@ -122,13 +122,15 @@ public:
     /// @throws InputError if there is no such frame or it cannot be read.
     std::vector<Vec3> read_frame(int frame) const;
 
-    /// Returns the compressed bytes of a frame, with the mask of the filters that were skipped.
-    std::vector<unsigned char> read_raw_frame(int frame, std::uint32_t& filter_mask) const;
+    /// Returns the compressed bytes of a frame.
+    std::vector<unsigned char> read_raw_frame(int frame) const;
 
 private:
     void check_frame(int frame) const;
 
-    std::unique_ptr<Hdf5File> file_;
+    struct Frames;
+    std::unique_ptr<Hdf5Reader> file_;
+    std::unique_ptr<Frames> frames_;
     TrajectoryLayout layout_;
     std::vector<FrameScalars> scalars_;
 };

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "io/errors.hpp"
-#include "io/run/hdf5_checks.hpp"
+#include "io/run/hdf5_filters.hpp"
+#include "io/run/hdf5_reader.hpp"
 #include "io/run/trajectory.hpp"
 #include "io/run/trajectory_format.hpp"
 
@@ -42,32 +43,32 @@ std::vector<std::array<Vec2, 3>> corners_of(const std::vector<double>& values)
     return corners;
 }
 
-int read_point_count(const Hdf5File& file)
+int read_point_count(const Hdf5Reader& file)
 {
     constexpr const char* name = "/VTKHDF/NumberOfPoints";
     const std::int64_t count = file.read_integers(name, {1}).front();
     // Each point has at least its panel in the file.
-    if (count < 1 || std::uintmax_t(count) > std::min(most_file_expansion * file.size(), std::uintmax_t(INT_MAX)))
+    if (count < 1 || std::uint64_t(count) > std::min(Hdf5Reader::most_expansion * file.size(), std::uint64_t(INT_MAX)))
         file.refuse(name, std::to_string(count), "a number of points that the file can hold");
     return int(count);
 }
 
-int read_frame_count(const Hdf5File& file)
+int read_frame_count(const Hdf5Reader& file)
 {
     const std::int64_t count = file.integer(steps, "NSteps");
-    if (count < 0 || std::uintmax_t(count) > file.size())
+    if (count < 0 || std::uint64_t(count) > file.size())
         file.refuse(std::string(steps) + "@NSteps", std::to_string(count), "a number of frames that the file can hold");
     return int(count);
 }
 
-TrajectoryLayout read_layout(const Hdf5File& file)
+TrajectoryLayout read_layout(const Hdf5Reader& file)
 {
-    constexpr hsize_t any = Hdf5File::any;
+    constexpr std::uint64_t any = Hdf5Reader::any;
     TrajectoryLayout layout;
     layout.point_count = read_point_count(file);
-    const auto points = hsize_t(layout.point_count);
+    const auto points = std::uint64_t(layout.point_count);
     layout.triangles = rows_of<Face>(file.read_indices("/selvage/triangles", {any, 3}, layout.point_count, "point"));
-    const hsize_t triangles = layout.triangles.size();
+    const std::uint64_t triangles = layout.triangles.size();
     layout.panel_names = file.texts("/selvage", "panel_names");
     const std::int64_t panels = layout.panel_names.empty() ? INT_MAX : std::int64_t(layout.panel_names.size());
     layout.panel_coordinates = rows_of<Vec2>(file.read_reals("/VTKHDF/PointData/panel_coordinates", {points, 2}));
@@ -87,11 +88,11 @@ TrajectoryLayout read_layout(const Hdf5File& file)
     return layout;
 }
 
-std::vector<FrameScalars> read_scalars(const Hdf5File& file)
+std::vector<FrameScalars> read_scalars(const Hdf5Reader& file)
 {
-    const auto frame_count = hsize_t(read_frame_count(file));
-    const auto column = [&](const char* name) { return file.read_reals(name, {Hdf5File::any}, frame_count); };
-    const auto whole = [&](const char* name) { return file.read_integers(name, {Hdf5File::any}, frame_count); };
+    const auto frame_count = std::uint64_t(read_frame_count(file));
+    const auto column = [&](const char* name) { return file.read_reals(name, {Hdf5Reader::any}, frame_count); };
+    const auto whole = [&](const char* name) { return file.read_integers(name, {Hdf5Reader::any}, frame_count); };
     const auto time = column("/selvage/time"), kinetic = column("/selvage/kinetic_energy"),
                total = column("/selvage/total_energy"), residual = column("/selvage/residual"),
                wall = column("/selvage/wall_seconds");
@@ -108,22 +109,21 @@ std::vector<FrameScalars> read_scalars(const Hdf5File& file)
 }
 
 // Frames are read, and copied on resuming, as whole chunks.
-void require_frames(const Hdf5File& file, int point_count, std::size_t frame_count)
+void require_frames(const Hdf5Reader& file, const Hdf5Reader::Dataset& frames, std::size_t point_count,
+                    std::size_t frame_count)
 {
-    const std::vector<hsize_t> shape = file.shape(points), chunk{hsize_t(point_count), 3};
-    if (shape.size() != 2 || shape[1] != 3 || shape[0] / chunk[0] < frame_count)
+    const Hdf5Reader::Shape& shape = frames.shape;
+    if (shape.size() != 2 || shape[1] != 3 || shape[0] / point_count < frame_count)
         file.refuse(
             points, shape.empty() ? "a single number" : std::to_string(shape[0]) + " rows",
             std::to_string(frame_count) + " frames of " + std::to_string(point_count) + " points with 3 numbers");
-    const Hdf5Id dataset = open_points(file);
-    const Hdf5Id properties(H5Dget_create_plist(dataset), H5Pclose, points);
-    std::array<hsize_t, 2> found{};
-    if (H5Pget_layout(properties) != H5D_CHUNKED || H5Pget_chunk(properties, 2, found.data()) != 2 ||
-        !std::ranges::equal(found, chunk))
-        file.refuse(points, "another storage", "one chunk for each frame");
-    const std::uintmax_t bytes = saturated_product(frame_count, 3 * sizeof(float) * chunk[0]);
-    if (const Hdf5Fault fault = check_dataset(dataset, bytes, file.size(), UINTMAX_MAX))
-        file.refuse(points, fault.found, fault.expected);
+    if (frames.chunk_rows != point_count || !frames.number.real || frames.number.bytes != sizeof(float) ||
+        frames.filters != std::vector<int>{shuffle_filter, deflate_filter})
+        file.refuse(points, "another storage", "a chunk of compressed numbers for each frame");
+    for (std::size_t frame = 0; frame < frame_count; ++frame)
+        if (const auto* chunk = Hdf5Reader::chunk_of(frames, frame * point_count);
+            !chunk || chunk->skipped_filters != 0)
+            file.refuse(points, "no data of frame " + std::to_string(frame), "a chunk of positions");
 }
 
 InputError not_a_run(const std::string& path, const std::string& found)
@@ -133,16 +133,19 @@ InputError not_a_run(const std::string& path, const std::string& found)
 
 }  // namespace
 
+struct TrajectoryReader::Frames : Hdf5Reader::Dataset {};
+
 TrajectoryReader::TrajectoryReader(TrajectoryReader&&) noexcept = default;
 TrajectoryReader::~TrajectoryReader() = default;
 
-TrajectoryReader::TrajectoryReader(const std::string& path) : file_(std::make_unique<Hdf5File>(path, Hdf5Access::read))
+TrajectoryReader::TrajectoryReader(const std::string& path) : file_(std::make_unique<Hdf5Reader>(path))
 {
     if (!file_->exists("/selvage/triangles") || !file_->exists(points))
         throw not_a_run(path, "an HDF5 file without /selvage/triangles and /VTKHDF/Points");
     layout_ = read_layout(*file_);
     scalars_ = read_scalars(*file_);
-    require_frames(*file_, layout_.point_count, scalars_.size());
+    frames_ = std::make_unique<Frames>(Frames{file_->open(points, !scalars_.empty())});
+    require_frames(*file_, *frames_, std::size_t(layout_.point_count), scalars_.size());
 }
 
 void TrajectoryReader::check_frame(int frame) const
@@ -155,38 +158,19 @@ void TrajectoryReader::check_frame(int frame) const
 std::vector<Vec3> TrajectoryReader::read_frame(int frame) const
 {
     check_frame(frame);
-    const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(layout_.point_count), 0},
-        count{hsize_t(layout_.point_count), 3};
-    const Hdf5Id dataset = open_points(*file_);
-    const Hdf5Id source(H5Dget_space(dataset), H5Sclose, points);
-    require_hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), points);
-    const Hdf5Id target(H5Screate_simple(2, count.data(), nullptr), H5Sclose, points);
-    std::vector<double> values(3 * std::size_t(layout_.point_count));
-    if (H5Dread(dataset, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()) < 0)
-        file_->refuse(points, "damaged data of frame " + std::to_string(frame), "positions");
+    const auto count = std::uint64_t(layout_.point_count);
+    const std::vector<double> values = file_->read_reals(*frames_, std::uint64_t(frame) * count, count, false);
     if (!std::ranges::all_of(values, [](double x) { return std::abs(x) <= largest_position; }))
         file_->refuse(points, "a position of frame " + std::to_string(frame) + " that is not finite or beyond 1e9 m",
                       "positions in metres");
     return rows_of<Vec3>(values);
 }
 
-std::vector<unsigned char> TrajectoryReader::read_raw_frame(int frame, std::uint32_t& filter_mask) const
+std::vector<unsigned char> TrajectoryReader::read_raw_frame(int frame) const
 {
     check_frame(frame);
-    const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(layout_.point_count), 0};
-    const Hdf5Id dataset = open_points(*file_);
-    hsize_t size = 0;
-    if (H5Dget_chunk_storage_size(dataset, start.data(), &size) < 0 || size > file_->size())
-        file_->refuse(points, "damaged data of frame " + std::to_string(frame), "a chunk of positions");
-    std::vector<unsigned char> bytes(size);
-#if H5_VERSION_GE(2, 0, 0)  // the name has gone to a function that is told the size
-    std::size_t room = bytes.size();
-    const herr_t status = H5Dread_chunk2(dataset, H5P_DEFAULT, start.data(), &filter_mask, bytes.data(), &room);
-#else
-    const herr_t status = H5Dread_chunk(dataset, H5P_DEFAULT, start.data(), &filter_mask, bytes.data());
-#endif
-    if (status < 0) file_->refuse(points, "damaged data of frame " + std::to_string(frame), "a chunk of positions");
-    return bytes;
+    const std::uint64_t row = std::uint64_t(frame) * std::uint64_t(layout_.point_count);
+    return file_->stored_bytes(*frames_, *Hdf5Reader::chunk_of(*frames_, row));
 }
 
 }  // namespace selvage

@@ -62,10 +62,9 @@ void copy_frames(const TrajectoryReader& old, const std::string& path, int frame
     const Hdf5Id target = open_points(file);
     lengthen_points(target, frame_count, point_count);
     for (int frame = 0; frame < frame_count; ++frame) {
-        std::uint32_t mask = 0;
-        const std::vector<unsigned char> raw = old.read_raw_frame(frame, mask);
+        const std::vector<unsigned char> raw = old.read_raw_frame(frame);
         const std::array<hsize_t, 2> start{hsize_t(frame) * hsize_t(point_count), 0};
-        require_hdf5(H5Dwrite_chunk(target, H5P_DEFAULT, mask, start.data(), raw.size(), raw.data()), points);
+        require_hdf5(H5Dwrite_chunk(target, H5P_DEFAULT, 0, start.data(), raw.size(), raw.data()), points);
     }
     for (std::size_t column = 0; column < frame_columns.size(); ++column) {
         const Hdf5Id dataset = file.open_dataset(frame_columns[column].name);

@@ -30,7 +30,8 @@ INNER_LAYERS = {
     "bench": [["bench/harness"], ["bench/suites"], ["bench"]],
     "validation": [["validation/measure"], ["validation/cases"], ["validation"], ["validation/unit"],
                    ["validation/unit/collision", "validation/unit/contact", "validation/unit/garment",
-                    "validation/unit/io", "validation/unit/run", "validation/unit/solver"]],
+                    "validation/unit/io", "validation/unit/run", "validation/unit/solver"],
+                   ["validation/fuzz"]],
 }
 
 

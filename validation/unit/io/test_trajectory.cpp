@@ -10,7 +10,7 @@
 #include "io/errors.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/describe.hpp"
-#include "io/run/hdf5_file.hpp"
+#include "io/run/hdf5_reader.hpp"
 #include "io/run/progress.hpp"
 #include "io/run/summary.hpp"
 #include "io/run/trajectory.hpp"
@@ -120,16 +120,16 @@ TEST_CASE("a run file has the layout that VTK and h5py users rely on")
     writer.finish();
 
     CHECK(text_of(path).at(8) == 0);  // Version of the superblock.
-    const Hdf5File file(path, Hdf5Access::read);
+    const Hdf5Reader file(path);
     CHECK(file.integer("/VTKHDF/Steps", "NSteps") == 3);
-    CHECK(file.shape("/VTKHDF/Points") == std::vector<hsize_t>{15, 3});
-    CHECK(file.shape("/selvage/positions") == std::vector<hsize_t>{3, 5, 3});
+    CHECK(file.shape("/VTKHDF/Points") == Hdf5Reader::Shape{15, 3});
+    CHECK(file.shape("/selvage/positions") == Hdf5Reader::Shape{3, 5, 3});
     CHECK(file.read_integers("/VTKHDF/Steps/PointOffsets") == std::vector<std::int64_t>{0, 5, 10});
     CHECK(file.read_integers("/VTKHDF/Steps/NumberOfParts") == std::vector<std::int64_t>{1, 1, 1});
-    CHECK(file.shape("/VTKHDF/Steps/ConnectivityIdOffsets") == std::vector<hsize_t>{3, 4});
-    CHECK(file.shape("/VTKHDF/Steps/CellDataOffsets/rest_edge_lengths") == std::vector<hsize_t>{3});
-    CHECK(file.shape("/VTKHDF/CellData/rest_corners") == std::vector<hsize_t>{2, 6});
-    CHECK(file.shape("/selvage/rest_corners") == std::vector<hsize_t>{2, 3, 2});
+    CHECK(file.shape("/VTKHDF/Steps/ConnectivityIdOffsets") == Hdf5Reader::Shape{3, 4});
+    CHECK(file.shape("/VTKHDF/Steps/CellDataOffsets/rest_edge_lengths") == Hdf5Reader::Shape{3});
+    CHECK(file.shape("/VTKHDF/CellData/rest_corners") == Hdf5Reader::Shape{2, 6});
+    CHECK(file.shape("/selvage/rest_corners") == Hdf5Reader::Shape{2, 3, 2});
     CHECK(file.read_integers("/VTKHDF/Polygons/Offsets") == std::vector<std::int64_t>{0, 3, 6});
     for (const char* empty : {"Vertices", "Lines", "Strips"})
         CHECK(file.read_integers(std::string("/VTKHDF/") + empty + "/Offsets") == std::vector<std::int64_t>{0});
@@ -221,8 +221,8 @@ TEST_CASE("resuming keeps the wanted frames and appends, also after a run that d
         write_frames(writer, 8);
         writer.finish();
         check_frames(file, 8, 1e-5);
-        CHECK(Hdf5File(file, Hdf5Access::read).shape("/selvage/positions").at(0) == 8);
-        CHECK(Hdf5File(file, Hdf5Access::read).shape("/VTKHDF/Points").at(0) == 40);
+        CHECK(Hdf5Reader(file).shape("/selvage/positions").at(0) == 8);
+        CHECK(Hdf5Reader(file).shape("/VTKHDF/Points").at(0) == 40);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "host/parallel/profile.hpp"
 #include "host/run/run_profile.hpp"
 #include "io/run/hdf5_file.hpp"
+#include "io/run/hdf5_reader.hpp"
 #include "validation/unit/catch.hpp"
 #include "validation/unit/scratch_file.hpp"
 
@@ -154,7 +155,7 @@ TEST_CASE("the report holds the contents of the trace as a table, as JSON and in
         run.make_group("/selvage");
     }
     write_profile(folder.path("run.h5"), report);
-    const Hdf5File run(folder.path("run.h5"), Hdf5Access::read);
+    const Hdf5Reader run(folder.path("run.h5"));
     CHECK(run.texts("/selvage/profile", "phase") ==
           std::vector<std::string>{"run", "run/outer", "run/outer/inner", "run/outer/inner/innermost"});
     CHECK(run.read_integers("/selvage/profile/calls") == std::vector<std::int64_t>{1, 5, 5, 5});
