@@ -25,12 +25,13 @@ void check_vertex_list(const Scene& scene, const std::string& key, std::string_v
 }
 
 // Pins that name no panel mean the sheets, and indices one sheet.
+// @param how  vertices of one panel are held
 void check_whose(const Scene& scene, const std::string& key, bool by_index, const std::string& how)
 {
     const std::size_t sheets = scene.sheets.size();
     if (sheets == 0)
         throw InputError(scene.place(key), "a scene without [[sheet]]",
-                         "a sheet whose vertices can be held, or " + how + " of the garment");
+                         "a sheet whose vertices can be held; those of a garment are by " + how);
     if (by_index && sheets > 1)
         throw InputError(scene.place(key), "indices in a scene of " + std::to_string(sheets) + " sheets",
                          how + ", as \"sheet[0]\", since each sheet counts its own vertices");
@@ -48,7 +49,7 @@ void check_motion(const Scene& scene, int index)
     check_vertex_list(scene, path + "vertices", motion.vertices);
     if (motion.panel.empty())
         check_whose(scene, path + (motion.vertices.empty() ? "group" : "vertices"), !motion.vertices.empty(),
-                    "`panel`, the name");
+                    "the name of the panel as `panel`");
 }
 
 void check_hold(const Scene& scene, int index)
@@ -67,7 +68,7 @@ void check_hold(const Scene& scene, int index)
 void check_pins(const Scene& scene)
 {
     check_vertex_list(scene, "pins.vertices", scene.pins.vertices);
-    const std::string how = "[[pins.hold]] with `panel`, the name";
+    const std::string how = "[[pins.hold]] with the name of the panel as `panel`";
     if (scene.pins.sheet != PinGroup::none) check_whose(scene, "pins.sheet", false, how);
     if (!scene.pins.vertices.empty()) check_whose(scene, "pins.vertices", true, how);
     for (int hold = 0; hold < int(scene.pin_holds.size()); ++hold) check_hold(scene, hold);
