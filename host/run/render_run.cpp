@@ -46,8 +46,9 @@ std::vector<TriangleMesh> bodies_at(const TrajectoryReader& reader, const std::s
     const std::filesystem::path run(run_h5);
     const std::string file = (run.parent_path() / "body.obj").string(), &text = reader.layout().scene_text;
     // The scene's own files need not be there any more: it is read only where something may move.
+    std::error_code error;
     if (text.find("keyframe") == std::string::npos && text.find("sequence") == std::string::npos) {
-        if (std::filesystem::exists(file)) meshes.push_back(read_obj(file, LengthUnit::m, Axis::z));
+        if (std::filesystem::exists(file, error)) meshes.push_back(read_obj(file, LengthUnit::m, Axis::z));
         return meshes;
     }
     const double bodies_time = run.stem() == "sewing" ? 0 : time;  // they wait until the garment is sewn

@@ -23,8 +23,9 @@ void check_file(const Scene& scene, const std::string& key, const std::string& n
         throw InputError(place, "no file name", kind);
     }
     const std::string path = scene.resolve(name);
-    if (!std::filesystem::is_regular_file(path)) {
-        const bool exists = std::filesystem::exists(path);
+    std::error_code error;  // a name may be longer than a file system knows
+    if (!std::filesystem::is_regular_file(path, error)) {
+        const bool exists = std::filesystem::exists(path, error);
         throw InputError(place, "`" + name + "`, " + (exists ? "not a file: " : "no such file: ") + path, kind);
     }
 }

@@ -71,6 +71,13 @@ class Info(unittest.TestCase):
             self.assertIn(word, result.stderr)
         self.assertEqual(call("info", os.path.join(self.folder, "nowhere.h5")).returncode, 2)
 
+    def test_a_file_name_longer_than_file_systems_know_is_refused(self):
+        for table in ["[garment]\npattern", "[[sheet]]\nshape = \"mesh\"\nmesh", SCENE + "[[body]]\nmesh"]:
+            result = call("check", self.write("long.toml", f'{table} = "{"x" * 5000}"\n'))
+            self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(call("info", "x" * 5000).returncode, 2)
+        self.assertEqual(call("render", "x" * 5000).returncode, 2)
+
     def test_a_name_with_a_line_break_is_refused(self):
         scene = SCENE + 'name = "a\\nv 0 0 0"\n'
         result = call("check", self.write("n.toml", scene))
