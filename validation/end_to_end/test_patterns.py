@@ -92,5 +92,29 @@ class Reading(InFolder):
         self.assertIn("bending_twist = automatic", listed)
 
 
+class Examination(InFolder):
+    def test_a_panel_drawn_clockwise_whose_neighbour_is_not_is_told_by_check_plan_and_drape(self):
+        mirrored = [[-x, y] for x, y in SQUARE]
+        panels = {"front": panel([0, 100, 10]), "back": panel([0, 100, -10], mirrored, turn=180)}
+        scene = self.garment(pattern(panels, [("front", 1, "back", 3), ("front", 3, "back", 1)]))
+        told = [self.call("check", scene, code=2)[0], self.call("plan", scene)[0],
+                self.call("drape", scene, "-o", "out", *SHORT, "--set", "seams.max_time=0.02", code=4)[1]]
+        for text in told:
+            self.assertIn("`front` (drawn counter-clockwise) is sewn mirrored to `back` (drawn clockwise)", text)
+
+    def test_gathers_are_noted_and_sides_that_cannot_be_sewn_refused(self):
+        def scene(height):
+            small = [[x, y * height / 20] for x, y in SQUARE]
+            panels = {"front": panel([0, 100, 10]), "back": panel([20, 100, -10], small, turn=180)}
+            return self.garment(pattern(panels, [("front", 1, "back", 3)]))
+        self.assertIn("note: seam_length: p.json:1:", self.call("check", scene(10))[0])
+        self.assertEqual(json.loads(self.call("plan", scene(10), "--json")[0])["warnings"], [])
+        self.assertIn("(5 to 1)", self.call("check", scene(4), code=2)[0])
+        for command in (["check"], ["plan"], ["drape", "-o", "out"]):
+            found = self.call(*command, scene(0.5), code=2)[1]
+            for word in ("stitches[0]", "front.edges[1], 0.2 m long", "back.edges[3], 0.005 m long", "40 to 1"):
+                self.assertIn(word, found)
+
+
 if __name__ == "__main__":
     unittest.main()
