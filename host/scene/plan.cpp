@@ -96,12 +96,12 @@ std::vector<MemoryPart> whole_memory(const Scene& scene, const SceneModel& model
     std::vector<MemoryPart> memory{present_memory()};
     const PhasePlan& largest = *std::max_element(plan.phases.begin(), plan.phases.end(), less);
     memory.insert(memory.end(), largest.memory.begin(), largest.memory.end());
-    std::vector<MemoryPart> last = end_memory(scene, model.cloth_model);
     if (plan.coarse_start) {
+        // What it frees lies between arrays that stay: little of it is there again for what comes at the end.
         const SceneModel coarse = coarser_model(model, 0);
-        const MemoryPart part{"coarse_start", total_bytes(plan_phase(scene, coarse, RunStage::drape).memory)};
-        if (part.bytes > total_bytes(last)) last = {part};
+        memory.push_back({"coarse_start", total_bytes(plan_phase(scene, coarse, RunStage::drape).memory)});
     }
+    const std::vector<MemoryPart> last = end_memory(scene, model.cloth_model);
     memory.insert(memory.end(), last.begin(), last.end());
     return memory;
 }
