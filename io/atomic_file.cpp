@@ -13,6 +13,15 @@ namespace selvage {
 namespace {
 
 constexpr std::string_view ending = ".partial";
+constexpr std::size_t digits = 12;  // of 5 bits each, which nobody finds by trying
+
+// The file that the user knows: the one that a temporary file was to become.
+std::string known_name(const std::string& path)
+{
+    const std::size_t more = 1 + digits + ending.size();
+    const bool temporary = path.ends_with(ending) && path.size() > more && path[path.size() - more] == '.';
+    return temporary ? path.substr(0, path.size() - more) : path;
+}
 
 std::string_view cure(int error)
 {
@@ -66,8 +75,8 @@ int write_new_file(const std::string& path, std::string_view bytes)
 }  // namespace
 
 WriteError::WriteError(const std::string& path, int error)
-    : InputError({path, 0, 0, {}}, error == 0 ? "an unknown fault" : std::strerror(error), cure(error)), error_(error),
-      text_(InputError::what())
+    : InputError({known_name(path), 0, 0, {}}, error == 0 ? "an unknown fault" : std::strerror(error), cure(error)),
+      error_(error), text_(InputError::what())
 {
 }
 
@@ -75,7 +84,7 @@ std::string temporary_name(const std::string& path)
 {
     static std::random_device device;
     std::string name = path + ".";
-    for (int digit = 0; digit < 12; ++digit) name += "0123456789abcdefghijklmnopqrstuv"[device() % 32];
+    for (std::size_t digit = 0; digit < digits; ++digit) name += "0123456789abcdefghijklmnopqrstuv"[device() % 32];
     return name.append(ending);
 }
 

@@ -9,6 +9,7 @@ namespace selvage {
 /// A file that cannot be written, as on a full disk: exit code 2. The message says what would cure it.
 class WriteError : public InputError {
 public:
+    /// @param path   of the file or of its temporary file
     /// @param error  as in errno; 0 if unknown
     WriteError(const std::string& path, int error);
 

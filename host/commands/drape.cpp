@@ -59,7 +59,8 @@ void add_drape_command(CLI::App& program, Action& chosen)
     command->footer(
         "Example:\n"
         "  selvage drape builtin:tshirt -o out --set garment.resolution=0.01 --set garment.fabric=silk\n"
-        "Exit codes: 0 done, 2 bad input, 3 diverged, 4 not converged within the limits, 128 + signal interrupted.");
+        "Exit codes: 0 done, 2 bad input or unwritable output, 3 diverged, 4 not converged within the limits, 128 + "
+        "signal interrupted.");
     command->callback([arguments, &chosen] { chosen = [arguments] { return drape(*arguments); }; });
 }
 

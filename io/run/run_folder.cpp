@@ -119,8 +119,10 @@ const std::string& RunFolder::path()
 
 void RunFolder::remove(const std::string& name)
 {
-    if (::unlinkat(folder_, name.c_str(), 0) != 0 && errno != ENOENT)
-        throw InputError({path_ + "/" + name, 0, 0, {}}, std::strerror(errno), "a file of an earlier run, or nothing");
+    if (::unlinkat(folder_, name.c_str(), 0) == 0 || errno == ENOENT) return;
+    const std::string path = path_ + "/" + name;
+    if (errno == EISDIR) throw InputError({path, 0, 0, {}}, "a folder", "a file of an earlier run, or nothing");
+    throw WriteError(path, errno);
 }
 
 void RunFolder::remove_temporary_files(std::span<const std::string> names)

@@ -45,7 +45,7 @@ public:
     const std::string& not_locked() const { return not_locked_; }
 
     /// Removes a file if it is there.
-    /// @throws WriteError if that fails
+    /// @throws WriteError if that fails; InputError if it is a folder
     void remove(const std::string& name);
 
     /// Removes what killed runs have left of files that they were writing.
