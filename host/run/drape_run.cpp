@@ -369,12 +369,8 @@ try {
 
 RunOutcome run_drape(const Scene& scene, const RunOptions& options)
 {
-    RunOptions used = options;
-    if (options.resume && !has_checkpoint(options.folder)) {
-        if (is_done(scene, options.folder)) return nothing_left(options.folder);
-        used.resume = false;
-        used.notice = "no checkpoint in " + options.folder + " to go on from: the run starts from the beginning";
-    }
+    const bool ended = options.resume && !has_checkpoint(options.folder) && is_done(scene, options.folder);
+    if (ended) return nothing_left(options.folder);  // without a hold on the folder, which may be read-only by now
     std::optional<tbb::global_control> limit;
     if (scene.solver.threads > 0)
         limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(scene.solver.threads));
@@ -383,6 +379,11 @@ RunOutcome run_drape(const Scene& scene, const RunOptions& options)
     const TraceUse use(trace ? &*trace : nullptr);
     RunFolder folder(options.folder);
     if (!folder.not_locked().empty()) fmt::print(stderr, "selvage: {}\n", folder.not_locked());
+    RunOptions used = options;
+    if (options.resume && !has_checkpoint(options.folder)) {
+        used.resume = false;
+        used.notice = "no checkpoint in " + options.folder + " to go on from: the run starts from the beginning";
+    }
     try {
         RunOutcome outcome = DrapeRun(scene, used, folder).execute();
         if (trace) conclude_profile(*trace, folder.path());

@@ -53,6 +53,7 @@ RunOutcome nothing_left(const std::string& folder)
     const std::string status = status_in(folder);
     RunOutcome outcome;
     outcome.status = status == status_name(RunStatus::finished) ? RunStatus::finished : RunStatus::converged;
+    outcome.folder = folder;
     outcome.message = folder + ": the run has come to its end (" + status + "): there is nothing left to do";
     return outcome;
 }

@@ -185,6 +185,13 @@ class OneRunAFolder(Folder):
                          ["notes.partial"])
         self.assertFalse(os.path.exists(self.path("out", "run.lock")))
 
+    def test_a_run_that_has_ended_is_told_again_also_in_a_folder_that_is_held(self):
+        self.assertEqual(run("drape", *TIMED, "-o", self.folder).returncode, 0)
+        os.mkdir(self.path("out", "run.lock"))      # nothing is to be written, so that nothing has to be held
+        result = run("drape", *TIMED, "-o", self.folder, "--resume", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(json.loads(result.stdout)["status"], "finished")
+
     def test_a_refused_scene_leaves_no_folder(self):
         result = run("drape", *TIMED, "-o", self.folder, "--set", "solver.memory_limit=1000")
         self.assertEqual(result.returncode, 2, result.stderr)
@@ -353,9 +360,9 @@ class Disks(Folder):
     def test_a_run_follows_its_folder(self):
         process = self.start(*ENDLESS)
         moved = self.path("elsewhere")
-        before = self.frames(self.folder)
         os.rename(self.folder, moved)
-        self.wait_for(process, lambda: self.frames(moved) > before + 5)
+        before = len(self.lines(moved))
+        self.wait_for(process, lambda: len(self.lines(moved)) > before + 20)
         process.send_signal(signal.SIGTERM)
         _, errors = process.communicate(timeout=30)
         self.assertEqual(process.returncode, 143, errors)
