@@ -51,7 +51,9 @@ void add_drape_command(CLI::App& program, Action& chosen)
     command->add_option("--precision", arguments->precision, "precision of the linear solves (solver.precision)")
         ->check(CLI::IsMember({"float", "double"}))
         ->type_name("float|double");
-    command->add_flag("--resume", arguments->run.resume, "go on from the checkpoint in the output folder");
+    command->add_flag(
+        "--resume", arguments->run.resume,
+        "go on from the checkpoint in the output folder as the unbroken run would; without one start anew");
     command->add_flag("--quiet", arguments->run.quiet, "no progress on stderr");
     command->add_flag("--profile", arguments->run.profile,
                       "print what each phase costs; writes trace.json, to be opened in Perfetto");

@@ -182,12 +182,20 @@ void load_found(const CheckpointLoader& load, State& state)
     list_pair_slots(state);
 }
 
-// What changes of a system beside its fields: parameters that sewing raises.
+// What changes of a system beside its fields: parameters that sewing raises, and the air as it was last asked for.
 template <class AnySystem, class Visit>
 void visit_params(AnySystem& system, const Visit& visit)
 {
     visit("seam.stiffness", system.params().seam.stiffness);
     visit("seam.force_limit", system.params().seam.force_limit);
+    const auto visit_air = [&](const std::string& term, auto& air) {
+        visit(term + ".velocity_x", air.velocity_x);
+        visit(term + ".velocity_y", air.velocity_y);
+        visit(term + ".velocity_z", air.velocity_z);
+    };
+    visit_air("wind", system.params().wind);
+    visit_air("air_drag", system.params().air_drag);
+    visit("face_air", system.state().face_air);
 }
 
 template <class Visit>

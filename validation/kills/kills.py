@@ -33,7 +33,7 @@ SCENES = {
     "vest": ["builtin:vest", "--set", "garment.resolution=0.05", "--set", "solver.max_time=2"],
     "sheets": ["sheets.toml"],
     "hanging": ["builtin:hanging", "--set", "sheet.resolution=129"],
-    "growing": ["builtin:vest", "--set", "garment.resolution=0.02", "--set", "solver.max_time=0.5"],
+    "growing": ["builtin:vest", "--set", "garment.resolution=0.0062", "--set", "solver.max_time=0.1"],
 }
 SMALL = {  # for a test that has to be quick
     "vest": ["builtin:vest", "--set", "garment.resolution=0.07", "--set", "solver.max_time=1"],
