@@ -51,6 +51,7 @@ TERM_PROGRAM = """
 #include <iostream>
 
 #include "host/scene/plan_text.hpp"
+#include "host/solver/terms/unit_strengths.hpp"
 #include "io/scene/read_scene.hpp"
 #include "validation/measure/finite_differences.hpp"
 #include "validation/measure/small_cloth.hpp"
