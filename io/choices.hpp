@@ -9,7 +9,7 @@
 #define AXES(WORD) WORD(x) WORD(y) WORD(z)
 #define PATTERN_AXES(WORD) WORD(automatic, "auto") AXES(WORD)
 #define ROTATION_ORDERS(WORD) WORD(xyz) WORD(zyx) WORD(yxz) WORD(yzx) WORD(zxy) WORD(xzy)
-#define LENGTH_UNITS(WORD) WORD(m) WORD(cm) WORD(mm) WORD(inch)
+#define LENGTH_UNITS(WORD) WORD(m) WORD(dm) WORD(cm) WORD(mm) WORD(inch)
 
 #define SHEET_SHAPES(WORD) WORD(rectangle) WORD(disc) WORD(mesh)
 #define MESH_FAMILIES(WORD) \

@@ -84,11 +84,6 @@ struct Nearest {
     double lower_bound = 0;  // of the distance to any body [m]
 };
 
-struct GapSum {
-    double min_gap = std::numeric_limits<double>::infinity();
-    int inside = 0;
-};
-
 /// The box around all vertices that are finite; a run that diverges is noticed elsewhere.
 Box bounding_box(const double* position, int stride, int count)
 {
@@ -440,7 +435,7 @@ std::vector<BodyCrossing> BodyQuery::crossings(const double* from, const double*
     return found;
 }
 
-BodyGap BodyQuery::measure(const double* position, int stride, int count) const
+std::vector<double> BodyQuery::signed_distances(const double* position, int stride, int count) const
 {
     const bool is_complete = impl_->counts.triangles_used == impl_->counts.triangles_total;
     constexpr double far = std::numeric_limits<double>::max();
@@ -460,21 +455,24 @@ BodyGap BodyQuery::measure(const double* position, int stride, int count) const
             smallest = std::min(smallest, analytic_contact(kernel_vector(x), &body.shape).gap);
         return smallest;
     };
-    const GapSum sum = tbb::parallel_reduce(
-        VertexRange(0, count, BodyQueryTuning::vertices_per_task), GapSum(),
-        [&](const VertexRange& range, GapSum part) {
-            std::vector<int> hints(meshes.size(), -1);  // the triangle closest to the previous vertex bounds the search
-            for (int v = range.begin(); v < range.end(); ++v) {
-                const double distance = signed_distance(vertex_at(position, stride, v), hints);
-                part.min_gap = std::min(part.min_gap, distance);
-                part.inside += distance < 0;
-            }
-            return part;
-        },
-        [](const GapSum& a, const GapSum& b) {
-            return GapSum{std::min(a.min_gap, b.min_gap), a.inside + b.inside};
-        });
-    return {std::max(0.0, -sum.min_gap), sum.min_gap, sum.inside};
+    std::vector<double> distances(count);
+    tbb::parallel_for(VertexRange(0, count, BodyQueryTuning::vertices_per_task), [&](const VertexRange& range) {
+        std::vector<int> hints(meshes.size(), -1);  // the triangle closest to the previous vertex bounds the search
+        for (int v = range.begin(); v < range.end(); ++v)
+            distances[v] = signed_distance(vertex_at(position, stride, v), hints);
+    });
+    return distances;
+}
+
+BodyGap BodyQuery::measure(const double* position, int stride, int count) const
+{
+    BodyGap gap{0, std::numeric_limits<double>::infinity(), 0};
+    for (const double distance : signed_distances(position, stride, count)) {
+        gap.min_gap_m = std::min(gap.min_gap_m, distance);
+        gap.vertices_inside += distance < 0;
+    }
+    gap.max_penetration_m = std::max(0.0, -gap.min_gap_m);
+    return gap;
 }
 
 }  // namespace selvage

@@ -103,7 +103,9 @@ public:
     /// @param from, to  3 planes, as in nearest() [m]
     std::vector<BodyCrossing> crossings(const double* from, const double* to, int stride, int count);
 
-    /// Measures the signed distances of all vertices to all triangles and closed forms, also outside the reach.
+    /// Returns the signed distance of every vertex to all triangles and closed forms, also outside the reach [m].
+    std::vector<double> signed_distances(const double* position, int stride, int count) const;
+    /// Sums up the signed distances of all vertices.
     BodyGap measure(const double* position, int stride, int count) const;
 
 private:

@@ -58,7 +58,7 @@ void join(std::vector<int>& parent, int a, int b)
 
 BodySurface::BodySurface(const TriangleMesh& mesh) : vertices_(mesh.vertices), faces_(mesh.faces)
 {
-    const std::vector<int> first = first_coincident_vertex(mesh);
+    const std::vector<int> first = first_coincident_vertex(mesh.vertices);
     for (Face& face : faces_)
         for (int& vertex : face) vertex = first[vertex];
     find_face_normals();

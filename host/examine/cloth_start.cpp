@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "host/collision/body_query.hpp"
+#include "host/examine/cloth_place.hpp"
+#include "host/examine/file_mesh.hpp"
+#include "host/examine/mesh_edges.hpp"
 #include "host/mesh/self_intersections.hpp"
 
 namespace selvage {
@@ -26,27 +30,49 @@ double smallest_angle(const Cloth& cloth, int face)
     return smallest * 180 / std::numbers::pi;
 }
 
+// Signed distances of points to bodies [m]; infinite for those outside the boxes of all of them, but for planes.
+std::vector<double> distances_to(const std::vector<Body>& bodies, const std::vector<Vec3>& points)
+{
+    std::vector<double> distances(points.size(), std::numeric_limits<double>::infinity());
+    std::vector<Box> boxes;
+    bool reaches_all = false;
+    Box all;
+    for (const Body& body : bodies) {
+        boxes.emplace_back();
+        // A closed form rises above its tessellation by little.
+        const Vec3 margin = Vec3::Constant(body.kind == Body::Kind::mesh ? 0 : 0.1 * body.radius);
+        for (const Vec3& x : body.mesh.vertices) boxes.back().extend(Box(x - margin, x + margin));
+        all.extend(boxes.back());
+        reaches_all = reaches_all || body.kind == Body::Kind::plane;
+    }
+    std::vector<int> near;
+    for (int v = 0; v < int(points.size()); ++v)
+        if (reaches_all || std::ranges::any_of(boxes, [&](const Box& box) { return box.contains(points[v]); }))
+            near.push_back(v);
+    if (near.empty()) return distances;
+    std::vector<double> planes(3 * near.size());
+    for (std::size_t k = 0; k < near.size(); ++k)
+        for (int c = 0; c < 3; ++c) planes[c * near.size() + k] = points[near[k]][c];
+    const std::vector<double> found =
+        BodyQuery(bodies, all).signed_distances(planes.data(), int(near.size()), int(near.size()));
+    for (std::size_t k = 0; k < near.size(); ++k) distances[near[k]] = found[k];
+    return distances;
+}
+
 // Faces with a corner inside a body.
-Finding find_penetrations(const ClothModel& model, const Box& reach)
+Finding find_penetrations(const ClothModel& model)
 {
     const Cloth& cloth = model.cloth;
     Finding finding{"penetration", {}, {}};
     if (model.bodies.empty()) return finding;
-    const BodyQuery query(model.bodies, reach);
-    std::vector<char> inside(cloth.positions.size());
-    double deepest = 0;
-    for (std::size_t v = 0; v < cloth.positions.size(); ++v) {
-        const BodyGap gap = query.measure(cloth.positions[v].data(), 1, 1);
-        inside[v] = gap.vertices_inside > 0;
-        deepest = std::max(deepest, gap.max_penetration_m);
-    }
+    const std::vector<double> distance = distances_to(model.bodies, cloth.positions);
     for (int f = 0; f < int(cloth.faces.size()); ++f)
-        if (std::any_of(cloth.faces[f].begin(), cloth.faces[f].end(), [&](int v) { return inside[v]; }))
-            finding.faces.push_back(f);
-    const auto count = std::count(inside.begin(), inside.end(), char(1));
-    if (count > 0)
-        finding.text = fmt::format("{} of {} vertices start inside a body, the deepest by {:.1f} mm", count,
-                                   cloth.positions.size(), 1000 * deepest);
+        if (std::ranges::any_of(cloth.faces[f], [&](int v) { return distance[v] < 0; })) finding.faces.push_back(f);
+    const auto count = std::ranges::count_if(distance, [](double d) { return d < 0; });
+    if (count == 0) return finding;
+    finding.text = fmt::format("{} of {} vertices start inside a body, the deepest by {:.1f} mm", count,
+                               cloth.positions.size(), -1000 * std::ranges::min(distance));
+    finding.way_on = "move the cloth or the body apart";
     return finding;
 }
 
@@ -61,21 +87,55 @@ void note_faces(Finding& finding, bool both)
     finding.faces.erase(std::unique(finding.faces.begin(), finding.faces.end()), finding.faces.end());
 }
 
+// The faces with one vertex for all that seams join at one place.
+std::vector<Face> joined_faces(const Cloth& cloth)
+{
+    JoinedSets sets(cloth.positions.size());
+    for (const auto& [a, b] : cloth.seam_pairs)
+        if (cloth.positions[a] == cloth.positions[b]) sets.join(a, b);
+    std::vector<Face> faces = cloth.faces;
+    for (Face& face : faces)
+        for (int& v : face) v = sets.root(v);
+    return faces;
+}
+
 Finding find_crossed_cloth(const Cloth& cloth)
 {
     Finding finding{"self_intersection", {}, {}};
-    finding.pairs = self_intersections(cloth.positions, cloth.faces);
+    finding.pairs = self_intersections(cloth.positions, joined_faces(cloth));
     note_faces(finding, true);
-    if (!finding.pairs.empty())
-        finding.text = fmt::format("{} pairs of the cloth's triangles intersect, the first {} and {}",
-                                   finding.pairs.size(), finding.pairs.front()[0], finding.pairs.front()[1]);
+    if (finding.pairs.empty()) return finding;
+    const auto [a, b] = finding.pairs.front();
+    const Vec3& at = cloth.positions[cloth.faces[a][0]];
+    finding.text = fmt::format("{} pairs of the cloth's triangles intersect at the start, the first {} and {}{}",
+                               finding.pairs.size(), a, b, at_text(at));
+    finding.way_on = "part the layers: cloth that starts through itself may stay so";
     return finding;
+}
+
+// The faces of a mesh whose boxes meet a box.
+std::vector<int> faces_in(const TriangleMesh& mesh, const Box& box)
+{
+    std::vector<int> near;
+    for (int f = 0; f < int(mesh.faces.size()); ++f) {
+        Box of_face;
+        for (const int v : mesh.faces[f]) of_face.extend(mesh.vertices[v]);
+        if (of_face.intersects(box)) near.push_back(f);
+    }
+    return near;
 }
 
 Finding find_crossed_body(const Cloth& cloth, const Body& body)
 {
     Finding finding{"body_intersection", {}, {}};
-    finding.pairs = mutual_intersections(cloth.positions, cloth.faces, body.mesh);
+    Box reach;
+    for (const Vec3& x : cloth.positions) reach.extend(x);
+    const std::vector<int> near = faces_in(body.mesh, reach);
+    if (near.empty()) return finding;
+    TriangleMesh part{body.mesh.vertices, {}, {}};
+    for (const int f : near) part.faces.push_back(body.mesh.faces[f]);
+    finding.pairs = mutual_intersections(cloth.positions, cloth.faces, part);
+    for (auto& pair : finding.pairs) pair[1] = near[pair[1]];
     note_faces(finding, false);
     if (!finding.pairs.empty())
         finding.text = fmt::format("{} triangles of the cloth intersect the body `{}`, in {} pairs; the first is {}",
@@ -98,27 +158,18 @@ Finding find_bad_triangles(const Cloth& cloth)
     return finding;
 }
 
-Finding find_odd_size(const Cloth& cloth)
-{
-    Finding finding{"unit", {}, {}};
-    Vec3 low = cloth.positions.front(), high = low;
-    for (const Vec3& x : cloth.positions) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    const double size = (high - low).norm();
-    if (size > 20 || size < 0.02) finding.text = fmt::format("the cloth is {:.3g} m across: is its unit right?", size);
-    return finding;
-}
-
 }  // namespace
 
-std::vector<Finding> examine_start(const ClothModel& model, const Box& reach)
+std::vector<Finding> examine_start(const ClothModel& model, const Scene& scene)
 {
-    std::vector<Finding> findings{find_penetrations(model, reach), find_crossed_cloth(model.cloth),
-                                  find_bad_triangles(model.cloth), find_odd_size(model.cloth)};
-    for (const Body& body : model.bodies) findings.push_back(find_crossed_body(model.cloth, body));
+    std::vector<Finding> findings{find_bad_triangles(model.cloth)};
+    if (scene.contact.self) findings.push_back(find_crossed_cloth(model.cloth));
+    if (scene.contact.body) {
+        findings.push_back(find_penetrations(model));
+        for (const Body& body : model.bodies) findings.push_back(find_crossed_body(model.cloth, body));
+    }
     std::erase_if(findings, [](const Finding& finding) { return finding.text.empty(); });
+    append_findings(findings, examine_place(model, scene));
     return findings;
 }
 

@@ -77,6 +77,22 @@ std::set<int> group_vertices(PinGroup group, const Cloth& cloth, const ClothPane
     return {};
 }
 
+int last_number(const ClothPanel& panel)
+{
+    const std::vector<int>& numbers = panel.file_numbers;
+    return numbers.empty() ? panel.vertex_count - 1 : *std::max_element(numbers.begin(), numbers.end());
+}
+
+// The vertices of a panel with a number: in its mesh file, where a vertex at a seam stands for several.
+std::set<int> vertices_of_number(const ClothPanel& panel, int number)
+{
+    std::set<int> vertices;
+    if (panel.file_numbers.empty() && number >= 0 && number < panel.vertex_count) vertices.insert(number);
+    for (std::size_t v = 0; v < panel.file_numbers.size(); ++v)
+        if (panel.file_numbers[v] == number) vertices.insert(int(v));
+    return vertices;
+}
+
 std::set<int> listed_vertices(const std::string& list, const ClothPanel& panel, const InputPlace& place)
 {
     std::set<int> vertices;
@@ -86,11 +102,15 @@ std::set<int> listed_vertices(const std::string& list, const ClothPanel& panel, 
         word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
         int vertex = -1;
         const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), vertex);
-        if (fault != std::errc() || end != word.data() + word.size() || vertex < 0 || vertex >= panel.vertex_count)
+        const std::set<int> named = fault == std::errc() && end == word.data() + word.size()
+                                        ? vertices_of_number(panel, vertex)
+                                        : std::set<int>();
+        if (named.empty())
             throw InputError(place, "`" + word + "`",
-                             "indices from 0 to " + std::to_string(panel.vertex_count - 1) + " of " + panel.name +
+                             "indices from 0 to " + std::to_string(last_number(panel)) + " of " + panel.name +
+                                 (panel.file_numbers.empty() ? "" : ", of vertices that a face uses") +
                                  ", separated by commas");
-        vertices.insert(vertex);
+        vertices.insert(named.begin(), named.end());
         at = comma + 1;
     }
     return vertices;

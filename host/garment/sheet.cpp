@@ -56,18 +56,34 @@ double face_area(const Cloth& cloth, const Face& face)
         {cloth.panel_coordinates[face[0]], cloth.panel_coordinates[face[1]], cloth.panel_coordinates[face[2]]});
 }
 
+// The number of a vertex of the sheet in its file, from 1.
+int number_in_file(const LoadedSheet& loaded, int vertex)
+{
+    return 1 + (loaded.numbers.empty() ? vertex : loaded.numbers[vertex]);
+}
+
+// Where a face of the sheet stands in its file.
+InputPlace place_of_face(const LoadedSheet& loaded, const InputPlace& place, int face)
+{
+    if (loaded.face_lines.empty()) return {place.file, 0, 0, place.key + ".mesh"};
+    return {loaded.file, loaded.face_lines[face], 0, {}};
+}
+
 // Fills in the one panel, its area and the length of its rim: sides that belong to a single face.
-void describe_panel(const SheetScene& sheet, Cloth& cloth, const InputPlace& place)
+void describe_panel(const SheetScene& sheet, const LoadedSheet& loaded, Cloth& cloth, const InputPlace& place)
 {
     const std::string& name = sheet.name.empty() ? place.key : sheet.name;
     ClothPanel panel{name, sheet.fabric, 0, int(cloth.panel_coordinates.size()), 0, int(cloth.faces.size()), 0, 0};
-    std::vector<std::array<int, 3>> sides;  // the smaller vertex, the larger one, and whether they run that way
+    panel.file_numbers = loaded.numbers;
+    // The smaller vertex, the larger one, whether they run that way, and the face.
+    std::vector<std::array<int, 4>> sides;
     sides.reserve(3 * cloth.faces.size());
-    for (const Face& face : cloth.faces) {
+    for (int f = 0; f < int(cloth.faces.size()); ++f) {
+        const Face& face = cloth.faces[f];
         panel.rest_area += face_area(cloth, face);
         for (int i = 0; i < 3; ++i) {
             const int a = face[i], b = face[(i + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : 0});
+            sides.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : 0, f});
         }
     }
     std::sort(sides.begin(), sides.end());
@@ -77,10 +93,11 @@ void describe_panel(const SheetScene& sheet, Cloth& cloth, const InputPlace& pla
         };
         if (same(i + 1)) {
             ++i;
-            if (sides[i] == sides[i - 1] || same(i + 1))
-                throw InputError({place.file, 0, 0, place.key + ".mesh"},
+            if (sides[i][2] == sides[i - 1][2] || same(i + 1))
+                throw InputError(place_of_face(loaded, place, sides[i][3]),
                                  "more than one face on the same side of the edge between vertices " +
-                                     std::to_string(sides[i][0]) + " and " + std::to_string(sides[i][1]),
+                                     std::to_string(number_in_file(loaded, sides[i][0])) + " and " +
+                                     std::to_string(number_in_file(loaded, sides[i][1])),
                                  "a sheet of cloth: at most two faces at an edge, facing the same way");
             continue;
         }
@@ -106,14 +123,14 @@ std::vector<Vec2> flat_coordinates(const TriangleMesh& mesh, const Vec3& middle,
         if (!(std::abs(arm.dot(normal) - (mesh.vertices.front() - middle).dot(normal)) <= flat_tolerance * extent))
             throw InputError({place.file, 0, 0, place.key + ".mesh"},
                              "a mesh that is neither flat nor has texture coordinates",
-                             "texture coordinates in metres, which give the rest shape");
+                             "texture coordinates, which give the rest shape");
         points.push_back({arm.dot(weft), arm.dot(warp)});
     }
     return points;
 }
 
 // Makes faces counter-clockwise in panel coordinates, mirroring a rest shape that is seen from behind.
-void orient(Cloth& cloth, const InputPlace& place)
+void orient(const LoadedSheet& loaded, Cloth& cloth, const InputPlace& place)
 {
     double total = 0;
     for (const Face& face : cloth.faces) total += face_area(cloth, face);
@@ -121,8 +138,8 @@ void orient(Cloth& cloth, const InputPlace& place)
         for (Vec2& point : cloth.panel_coordinates) point.x() = -point.x();
     for (std::size_t face = 0; face < cloth.faces.size(); ++face)
         if (!(face_area(cloth, cloth.faces[face]) > 0))
-            throw InputError({place.file, 0, 0, place.key + ".mesh"},
-                             "face " + std::to_string(face) + " without area or turned over in the rest shape",
+            throw InputError(place_of_face(loaded, place, int(face)),
+                             "a face without area or turned over in the rest shape",
                              "faces that all turn the same way in texture coordinates");
 }
 
@@ -142,20 +159,15 @@ Cloth make_sheet(const SheetScene& sheet, const std::string& file, const std::st
     const Mat3 rotation = turned(sheet.rotation);
     for (const Vec2& point : cloth.panel_coordinates)
         cloth.positions.push_back(rotation * Vec3(point.x(), point.y(), 0) + sheet.center);
-    describe_panel(sheet, cloth, place);
+    describe_panel(sheet, {}, cloth, place);
     return cloth;
 }
 
-Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture_coordinates, const SheetScene& sheet,
+Cloth sheet_from_mesh(const LoadedSheet& loaded, const SheetScene& sheet, const std::optional<Vec3>& center,
                       const std::string& file, const std::string& key)
 {
     const InputPlace place{file, 0, 0, key};
-    if (mesh.vertices.empty() || mesh.faces.empty())
-        throw InputError({file, 0, 0, key + ".mesh"}, "a mesh without faces", "at least one triangle");
-    if (!texture_coordinates.empty() && texture_coordinates.size() != mesh.vertices.size())
-        throw InputError({file, 0, 0, key + ".mesh"},
-                         std::to_string(texture_coordinates.size()) + " texture coordinates",
-                         std::to_string(mesh.vertices.size()) + ", one per vertex");
+    const TriangleMesh& mesh = loaded.mesh;
     Vec3 low = mesh.vertices.front(), high = low;
     for (const Vec3& vertex : mesh.vertices) {
         low = low.cwiseMin(vertex);
@@ -164,13 +176,16 @@ Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture
     const Vec3 middle = 0.5 * (low + high);
     Cloth cloth;
     cloth.faces = mesh.faces;
-    cloth.panel_coordinates = texture_coordinates.empty()
-                                  ? flat_coordinates(mesh, middle, (high - low).maxCoeff(), place)
-                                  : texture_coordinates;
-    orient(cloth, place);
-    const Mat3 rotation = turned(sheet.rotation);
-    for (const Vec3& vertex : mesh.vertices) cloth.positions.push_back(rotation * (vertex - middle) + sheet.center);
-    describe_panel(sheet, cloth, place);
+    cloth.panel_coordinates =
+        loaded.rest.empty() ? flat_coordinates(mesh, middle, (high - low).maxCoeff(), place) : loaded.rest;
+    orient(loaded, cloth, place);
+    cloth.positions = mesh.vertices;
+    if (center || !sheet.rotation.isZero(0)) {
+        const Mat3 rotation = turned(sheet.rotation);
+        for (Vec3& x : cloth.positions) x = rotation * (x - middle) + center.value_or(middle);
+    }
+    cloth.seam_pairs = loaded.joined;
+    describe_panel(sheet, loaded, cloth, place);
     return cloth;
 }
 

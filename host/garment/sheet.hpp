@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +17,21 @@ namespace selvage {
 /// @throws InputError for a mesh family of another shape
 Cloth make_sheet(const SheetScene& sheet, const std::string& file, const std::string& key);
 
-/// Makes a sheet from a mesh: its middle (of the bounding box) starts at the sheet's centre.
-/// @param mesh                 start shape [m]
-/// @param texture_coordinates  rest shape [m], one per vertex; empty: the mesh is flat and its own rest shape
+/// A sheet's mesh as read from a file, with every vertex at one place of the rest shape.
+struct LoadedSheet {
+    std::string file;                        ///< For messages.
+    TriangleMesh mesh;                       ///< Start shape [m].
+    std::vector<Vec2> rest;                  ///< Rest shape [m], one per vertex; empty: the mesh is its own, and flat.
+    std::vector<std::array<int, 2>> joined;  ///< Vertices at one place that are one point of the cloth: at its seams.
+    std::vector<int> numbers;                ///< Index of each vertex in the file, from 0; empty: the same.
+    std::vector<int> face_lines;             ///< Line of each face in the file; empty: unknown.
+};
+
+/// Makes a sheet from a mesh.
+/// @param center  where the middle of its bounding box starts; none: where it is. The sheet turns about its middle.
+/// @param file    scene file for messages
 /// @throws InputError if the rest shape is missing, overlaps itself at an edge, or has faces without area
-Cloth sheet_from_mesh(const TriangleMesh& mesh, const std::vector<Vec2>& texture_coordinates, const SheetScene& sheet,
+Cloth sheet_from_mesh(const LoadedSheet& loaded, const SheetScene& sheet, const std::optional<Vec3>& center,
                       const std::string& file, const std::string& key);
 
 }  // namespace selvage

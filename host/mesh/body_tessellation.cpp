@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include <tbb/parallel_sort.h>
 #include <Eigen/Geometry>
 
 namespace selvage {
@@ -210,34 +211,18 @@ double signed_volume(const TriangleMesh& mesh)
     return six_volumes / 6;
 }
 
-bool is_closed(const TriangleMesh& mesh)
+std::vector<int> first_coincident_vertex(const std::vector<Vec3>& vertices)
 {
-    const std::vector<int> vertex_of = first_coincident_vertex(mesh);
-    std::vector<std::pair<int, int>> directed;
-    for (const Face& f : mesh.faces)
-        for (int k = 0; k < 3; ++k) {
-            const int a = vertex_of[f[k]], b = vertex_of[f[(k + 1) % 3]];
-            if (a != b) directed.emplace_back(a, b);
-        }
-    std::sort(directed.begin(), directed.end());
-    if (std::adjacent_find(directed.begin(), directed.end()) != directed.end()) return false;
-    return std::all_of(directed.begin(), directed.end(), [&](const auto& edge) {
-        return std::binary_search(directed.begin(), directed.end(), std::pair(edge.second, edge.first));
-    });
-}
-
-std::vector<int> first_coincident_vertex(const TriangleMesh& mesh)
-{
-    std::vector<int> order(mesh.vertices.size());
+    std::vector<int> order(vertices.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](int v) {
-        const Vec3& x = mesh.vertices[v];
-        return std::tuple(x.x(), x.y(), x.z());
-    };
-    std::sort(order.begin(), order.end(), [&](int a, int b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
-    std::vector<int> first(mesh.vertices.size());
+    tbb::parallel_sort(order.begin(), order.end(), [&](int a, int b) {
+        for (int c = 0; c < 3; ++c)
+            if (vertices[a][c] != vertices[b][c]) return vertices[a][c] < vertices[b][c];
+        return a < b;
+    });
+    std::vector<int> first(vertices.size());
     for (std::size_t k = 0; k < order.size(); ++k)
-        first[order[k]] = k > 0 && key(order[k]) == key(order[k - 1]) ? first[order[k - 1]] : order[k];
+        first[order[k]] = k > 0 && vertices[order[k]] == vertices[order[k - 1]] ? first[order[k - 1]] : order[k];
     return first;
 }
 

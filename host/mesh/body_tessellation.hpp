@@ -27,10 +27,7 @@ TriangleMesh torus_mesh(const Vec3& center, const Vec3& axis, double radius, dou
 /// Returns the enclosed volume [m^3], positive if the faces are counter-clockwise seen from outside.
 double signed_volume(const TriangleMesh& mesh);
 
-/// True if every directed edge is met by its reverse exactly once, coincident vertices counted as one.
-bool is_closed(const TriangleMesh& mesh);
-
 /// Returns for every vertex the first vertex with exactly the same position.
-std::vector<int> first_coincident_vertex(const TriangleMesh& mesh);
+std::vector<int> first_coincident_vertex(const std::vector<Vec3>& vertices);
 
 }  // namespace selvage

@@ -14,6 +14,12 @@ std::vector<Face> outward_faces(const Cloth& cloth)
     return faces;
 }
 
+bool seams_are_closed(const Cloth& cloth)
+{
+    return std::all_of(cloth.seam_pairs.begin(), cloth.seam_pairs.end(),
+                       [&](const auto& pair) { return cloth.positions[pair[0]] == cloth.positions[pair[1]]; });
+}
+
 void append_cloth(Cloth& to, const Cloth& other)
 {
     const int vertices = int(to.positions.size()), faces = int(to.faces.size()), panels = int(to.panels.size());
@@ -21,7 +27,11 @@ void append_cloth(Cloth& to, const Cloth& other)
     const auto append = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
     append(to.panel_coordinates, other.panel_coordinates);
     append(to.positions, other.positions);
-    append(to.findings, other.findings);
+    for (Finding finding : other.findings) {
+        for (int& face : finding.faces) face += faces;
+        for (auto& pair : finding.pairs) pair = {pair[0] + faces, pair[1] + faces};
+        to.findings.push_back(std::move(finding));
+    }
     for (const Face& face : other.faces)
         to.faces.push_back({face[0] + vertices, face[1] + vertices, face[2] + vertices});
     for (ClothPanel panel : other.panels) {

@@ -14,9 +14,10 @@ struct ClothPanel {
     std::string fabric;  ///< Key into Scene::fabrics.
     int first_vertex = 0, vertex_count = 0;
     int first_face = 0, face_count = 0;
-    double rest_area = 0;      ///< Area of the triangulated outline [m^2].
-    double rest_boundary = 0;  ///< Length of the boundary polygon [m].
-    bool reversed = false;     ///< Its outside is the side from which the faces look clockwise.
+    double rest_area = 0;           ///< Area of the triangulated outline [m^2].
+    double rest_boundary = 0;       ///< Length of the boundary polygon [m].
+    bool reversed = false;          ///< Its outside is the side from which the faces look clockwise.
+    std::vector<int> file_numbers;  ///< Index of each vertex in the mesh file it comes from; empty: made here.
 };
 
 /// The sampled vertices of one outline edge, from its start to its end.
@@ -62,6 +63,9 @@ struct Cloth {
 
 /// Returns the faces of a cloth, counter-clockwise as seen from its outside, in the order of Cloth::faces.
 std::vector<Face> outward_faces(const Cloth& cloth);
+
+/// True if the vertices of every seam start at one place, as in a sheet that was read sewn; also without seams.
+bool seams_are_closed(const Cloth& cloth);
 
 /// Appends the panels, seams and pins of another cloth, with its indices shifted.
 void append_cloth(Cloth& to, const Cloth& other);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 
+#include "host/mesh/polygon_triangles.hpp"
 #include "host/model/body.hpp"
 #include "host/render/picture.hpp"
 #include "host/scene/body_model.hpp"
@@ -48,11 +49,13 @@ std::vector<TriangleMesh> bodies_at(const TrajectoryReader& reader, const std::s
     // The scene's own files need not be there any more: it is read only where something may move.
     std::error_code error;
     if (text.find("keyframe") == std::string::npos && text.find("sequence") == std::string::npos) {
-        if (std::filesystem::exists(file, error)) meshes.push_back(read_obj(file, LengthUnit::m, Axis::z));
+        if (std::filesystem::exists(file, error))
+            meshes.push_back(triangle_mesh(read_obj(file, LengthUnit::m, Axis::z)));
         return meshes;
     }
     const double bodies_time = run.stem() == "sewing" ? 0 : time;  // they wait until the garment is sewn
-    for (const Body& body : build_bodies(read_scene_text(text, reader.layout().scene_file)))
+    std::vector<Finding> known;                                    // the run has told of them
+    for (const Body& body : build_bodies(read_scene_text(text, reader.layout().scene_file), known))
         meshes.push_back(body_mesh_at(body, bodies_time));
     return meshes;
 }

@@ -5,10 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "host/examine/body_mesh.hpp"
+#include "host/examine/body_sequence.hpp"
 #include "host/mannequin/mannequin.hpp"
 #include "host/model/body.hpp"
 #include "host/scene/body_shapes.hpp"
-#include "io/mesh/body_mesh.hpp"
 #include "io/mesh/mesh_obj.hpp"
 
 namespace selvage {
@@ -61,48 +62,41 @@ std::vector<LoadedPose> mannequin_poses(const TriangleMesh& start, const BodySce
     return poses;
 }
 
-// A pose from a file, whose faces must be those of the body.
-std::vector<Vec3> read_pose(const std::string& file, const BodyScene& body, const TriangleMesh& start)
+std::vector<LoadedPose> mesh_poses(const Scene& scene, int index, const FileMesh& start,
+                                   const std::vector<SequenceFile>& sequence, std::vector<Finding>& findings)
 {
-    TriangleMesh pose = read_obj(file, body.unit, body.up_axis);
-    if (pose.vertices.size() != start.vertices.size() || pose.faces != start.faces)
-        throw InputError({file, 0, 0, {}},
-                         fmt::format("a pose of {} vertices and {} faces", pose.vertices.size(), pose.faces.size()),
-                         fmt::format("the {} vertices and the {} faces of the body's own mesh, numbered as there",
-                                     start.vertices.size(), start.faces.size()));
-    return std::move(pose.vertices);
-}
-
-std::vector<LoadedPose> mesh_poses(const Scene& scene, const BodyScene& body, const TriangleMesh& start,
-                                   const std::vector<std::string>& sequence)
-{
+    const BodyScene& body = scene.bodies[index];
     std::vector<LoadedPose> poses;
+    PoseLoader loader(scene, index, start);
     for (std::size_t k = 0; k < sequence.size(); ++k) {
         const double time = body.sequence_start + double(k) / body.sequence_rate;
-        if (time > 0) poses.push_back({time, read_pose(sequence[k], body, start), false});
+        if (time > 0) poses.push_back({time, loader.load(sequence[k].path), false});
     }
     const bool morphs = std::any_of(body.keyframes.begin(), body.keyframes.end(),
                                     [](const KeyframeScene& key) { return !key.mesh.empty(); });
     for (const KeyframeScene& key : body.keyframes) {
         if (!morphs) break;
-        const std::vector<Vec3>& last = poses.empty() ? start.vertices : poses.back().vertices;
-        std::vector<Vec3> next = key.mesh.empty() ? last : read_pose(scene.resolve(key.mesh), body, start);
+        const std::vector<Vec3>& last = poses.empty() ? start.mesh.vertices : poses.back().vertices;
+        std::vector<Vec3> next = key.mesh.empty() ? last : loader.load(scene.resolve(key.mesh));
         poses.push_back({key.time, std::move(next), body.interpolation == Interpolation::smooth});
     }
+    loader.conclude(findings);
     return poses;
 }
 
-Body mesh_body(const Scene& scene, int index)
+Body mesh_body(const Scene& scene, int index, std::vector<Finding>& findings)
 {
     const BodyScene& body = scene.bodies[index];
-    std::vector<std::string> sequence;
-    if (!body.sequence.empty())
-        sequence = sequence_files(scene.resolve(body.sequence), scene.place(fmt::format("body[{}].sequence", index)));
-    const std::string file = body.mesh.empty() ? sequence.front() : scene.resolve(body.mesh);
-    const TriangleMesh loaded = read_obj(file, body.unit, body.up_axis);
-    Body made = make_body(body, scene, index, loaded);
-    require_closed_body(made.mesh, file);
-    add_motion(made, body, mesh_poses(scene, body, loaded, sequence));
+    std::vector<SequenceFile> sequence;
+    if (!body.sequence.empty()) {
+        const InputPlace place = scene.place(fmt::format("body[{}].sequence", index));
+        sequence = sequence_files(scene.resolve(body.sequence), place);
+        examine_file_numbers(sequence, place, findings);
+    }
+    const std::string file = body.mesh.empty() ? sequence.front().path : scene.resolve(body.mesh);
+    const FileMesh loaded = load_body(scene, index, file, findings);
+    Body made = make_body(body, scene, index, loaded.mesh);
+    if (body.moves()) add_motion(made, body, mesh_poses(scene, index, loaded, sequence, findings));
     return made;
 }
 
@@ -117,7 +111,7 @@ Body mannequin_body(const Scene& scene, int index)
 
 }  // namespace
 
-std::vector<Body> build_bodies(const Scene& scene)
+std::vector<Body> build_bodies(const Scene& scene, std::vector<Finding>& findings)
 {
     std::vector<Body> bodies;
     for (int i = 0; i < int(scene.bodies.size()); ++i) {
@@ -125,7 +119,7 @@ std::vector<Body> build_bodies(const Scene& scene)
         if (body.shape == BodyShape::mannequin) {
             bodies.push_back(mannequin_body(scene, i));
         } else if (body.shape == BodyShape::mesh) {
-            bodies.push_back(mesh_body(scene, i));
+            bodies.push_back(mesh_body(scene, i, findings));
         } else {
             bodies.push_back(make_body(body, scene, i));
             add_motion(bodies.back(), body, {});

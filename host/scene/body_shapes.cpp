@@ -109,8 +109,6 @@ Body make_body(const BodyScene& body_scene, const Scene& scene, int index, const
     Body body = named_body(body_scene, index);
     body.mesh = loaded;
     place(body_scene, body.mesh.vertices);
-    if (is_closed(body.mesh) && signed_volume(body.mesh) < 0)
-        for (Face& face : body.mesh.faces) std::swap(face[1], face[2]);
     return body;
 }
 

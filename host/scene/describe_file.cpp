@@ -33,10 +33,11 @@ Json size_of(const std::vector<Vec3>& points)
 
 Json describe_mesh(const std::string& path)
 {
-    const TriangleMesh mesh = read_obj(path, LengthUnit::m, Axis::z);
+    const ObjMesh mesh = read_obj(path, LengthUnit::m, Axis::z);
     Json json{{"file", path}, {"kind", "mesh"}};
     json["vertices"] = mesh.vertices.size();
-    json["triangles"] = mesh.faces.size();
+    // A polygon of n corners becomes n - 2 triangles.
+    json["triangles"] = int(mesh.corner_vertices.size()) - 2 * mesh.polygon_count();
     json["size"] = size_of(mesh.vertices);
     json["objects"] = Json::array();
     for (const MeshPart& part : mesh.parts) json["objects"].push_back(part.name);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "host/examine/cloth_start.hpp"
 #include "host/model/cloth_model.hpp"
 #include "host/render/picture.hpp"
 #include "host/scene/plan.hpp"
@@ -35,8 +34,7 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
 {
     const SceneModel model = build_scene_model(scene);
     check_memory(scene, make_plan(scene, model));
-    std::vector<Finding> findings = examine_start(model.cloth_model, cloth_reach(model.cloth_model.cloth));
-    append_findings(findings, model.findings);
+    const std::vector<Finding>& findings = model.findings;
     if (!picture_path.empty()) draw(model.cloth_model, findings, picture_path);
 
     Diagnosis diagnosis;

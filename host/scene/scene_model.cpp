@@ -4,11 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "host/examine/cloth_start.hpp"
 #include "host/examine/pattern.hpp"
 #include "host/examine/scene.hpp"
+#include "host/examine/sheet_mesh.hpp"
 #include "host/garment/assemble.hpp"
 #include "host/garment/catalogue.hpp"
 #include "host/garment/sheet.hpp"
@@ -20,7 +23,6 @@
 #include "host/scene/pin_meetings.hpp"
 #include "host/scene/scene_pins.hpp"
 #include "io/memory.hpp"
-#include "io/mesh/mesh_obj.hpp"
 #include "io/pattern/pattern_json.hpp"
 
 namespace selvage {
@@ -98,9 +100,13 @@ Cloth sheet_at(const Scene& scene, int index, int resolution)
     sheet.resolution = resolution;
     const std::string key = "sheet[" + std::to_string(index) + "]";
     if (sheet.shape == SheetShape::mesh) {
-        std::vector<Vec2> texture;
-        const TriangleMesh mesh = read_obj(scene.resolve(sheet.mesh), sheet.unit, sheet.up_axis, &texture);
-        return sheet_from_mesh(mesh, texture, sheet, sheet.mesh, key);
+        std::vector<Finding> findings;
+        const LoadedSheet loaded = load_sheet(scene, index, findings);
+        const bool moves = scene.places.count(key + ".center") > 0;
+        Cloth cloth =
+            sheet_from_mesh(loaded, sheet, moves ? std::optional(sheet.center) : std::nullopt, scene.file, key);
+        append_findings(cloth.findings, findings);
+        return cloth;
     }
     return make_sheet(sheet, scene.file, key);
 }
@@ -141,6 +147,14 @@ double ripple_at(const Vec2& x)
     return sum / ripple_waves;
 }
 
+// A sheet that starts folded knows which way to go.
+bool is_level(const Cloth& cloth, const ClothPanel& panel, const Vec3& normal, double extent)
+{
+    const auto first = cloth.positions.begin() + panel.first_vertex;
+    return std::all_of(first, first + panel.vertex_count,
+                       [&](const Vec3& x) { return std::abs((x - *first).dot(normal)) <= ripple * extent; });
+}
+
 void add_ripple(Cloth& cloth)
 {
     std::vector<char> held(cloth.positions.size());
@@ -151,10 +165,12 @@ void add_ripple(Cloth& cloth)
                                 .cross(cloth.positions[f[2]] - cloth.positions[f[0]])
                                 .normalized();
         const double extent = 2 * std::sqrt(panel.rest_area / std::numbers::pi);
+        if (!is_level(cloth, panel, normal, extent)) continue;
         for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v)
             if (!held[v])
                 cloth.positions[v] += ripple * extent * ripple_at(cloth.panel_coordinates[v] / extent) * normal;
     }
+    for (const auto& [a, b] : cloth.seam_pairs) cloth.positions[b] = cloth.positions[a];
 }
 
 // The copy of a garment with a number; the first is the garment itself.
@@ -217,13 +233,13 @@ SceneModel build_scene_model(const Scene& scene)
     // A fabric that no panel is made of must not decide which terms run.
     for (const ClothPanel& panel : result.cloth_model.cloth.panels)
         result.cloth_model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
-    result.cloth_model.bodies = build_bodies(scene);
-    add_coarser_levels(scene, pattern, result.cloth_model);
     result.findings = pattern.findings;
+    result.cloth_model.bodies = build_bodies(scene, result.findings);
+    add_coarser_levels(scene, pattern, result.cloth_model);
     append_findings(result.findings, result.cloth_model.cloth.findings);
     if (scene.has_garment())
         append_findings(result.findings, examine_pattern(pattern, result.cloth_model.cloth, scene.garment.resolution));
-    result.sews = !result.cloth_model.cloth.seam_pairs.empty();
+    result.sews = !seams_are_closed(result.cloth_model.cloth);
     result.edge_length = typical_edge(result.cloth_model.cloth);
     find_limits(scene, result);
     append_findings(result.findings, examine_scene(scene, result.cloth_model, result.edge_length));
@@ -233,6 +249,7 @@ SceneModel build_scene_model(const Scene& scene)
         add_ripple(result.cloth_model.cloth);
         for (Cloth& coarser : result.cloth_model.coarser) add_ripple(coarser);
     }
+    append_findings(result.findings, examine_start(result.cloth_model, scene));
     return result;
 }
 

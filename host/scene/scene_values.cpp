@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -58,7 +59,11 @@ struct Table {
         if (name.empty() || name.starts_with("builtin:")) return;
         const std::string file = scene.resolve(name);
         std::vector<std::string> files{file};
-        if (file.find('*') != std::string::npos) files = sequence_files(file, scene.place(path + key));
+        if (file.find('*') != std::string::npos) {
+            files.clear();
+            for (SequenceFile& one : sequence_files(file, scene.place(path + key)))
+                files.push_back(std::move(one.path));
+        }
         ContentHash hash;
         for (const std::string& one : files) {
             std::error_code error;

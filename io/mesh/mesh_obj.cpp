@@ -10,11 +10,13 @@
 #include "io/errors.hpp"
 #include "io/file_text.hpp"
 #include "io/mesh/axes.hpp"
+#include "io/mesh/length_unit.hpp"
+#include "io/mesh/obj_lines.hpp"
 
 namespace selvage {
 namespace {
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
 // Removes the next word from a line and returns it; empty at the end of the line.
 std::string_view take_word(std::string_view& line)
@@ -48,13 +50,11 @@ struct Corner {
 
 class ObjReader {
 public:
-    explicit ObjReader(const std::string& path) : path_(path) {}
+    explicit ObjReader(const std::string& path) { mesh.path = path; }
 
-    void read(std::string_view text);
-    void fill_texture(std::vector<Vec2>& texture) const;
+    void read(std::string text);
 
-    TriangleMesh mesh;
-    std::vector<int> face_lines;
+    ObjMesh mesh;
 
 private:
     void read_line(std::string_view line);
@@ -66,36 +66,32 @@ private:
     int read_index(std::string_view& word, int count, const char* kind, int& largest, int& largest_line) const;
     [[noreturn]] void refuse(int line, std::string_view found, std::string_view expected) const;
 
-    std::string path_;
     int line_ = 0;
-    std::vector<Vec2> texture_;
-    std::vector<Corner> corners_;
-    std::vector<std::array<int, 3>> face_textures_;
     int largest_vertex_ = -1, largest_vertex_line_ = 0;
     int largest_texture_ = -1, largest_texture_line_ = 0;
 };
 
 void ObjReader::refuse(int line, std::string_view found, std::string_view expected) const
 {
-    throw InputError({path_, line, 0, {}}, found, expected);
+    throw InputError({mesh.path, line, 0, {}}, found, expected);
 }
 
-void ObjReader::read(std::string_view text)
+void ObjReader::read(std::string text)
 {
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        ++line_;
-        read_line(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
+    ObjLines lines(std::move(text));
+    while (lines.next()) {
+        line_ = lines.number();
+        read_line(lines.line());
     }
-    if (mesh.faces.empty()) refuse(0, "no faces", "an OBJ file with lines `f i j k`");
+    if (mesh.polygon_lines.empty()) refuse(0, "no faces", "an OBJ file with lines `f i j k`");
+    mesh.polygon_starts.push_back(int(mesh.corner_vertices.size()));
     const auto check = [&](int largest, int line, std::size_t count, const std::string& kind) {
         if (largest >= int(count))
             refuse(line, "index " + std::to_string(largest + 1) + " of a " + kind,
                    "an index from 1 to " + std::to_string(count));
     };
     check(largest_vertex_, largest_vertex_line_, mesh.vertices.size(), "vertex");
-    check(largest_texture_, largest_texture_line_, texture_.size(), "texture coordinate");
+    check(largest_texture_, largest_texture_line_, mesh.texture.size(), "texture coordinate");
     finish_parts();
 }
 
@@ -106,9 +102,10 @@ void ObjReader::read_line(std::string_view line)
     if (keyword == "v") {
         const double x = read_number(rest, "x"), y = read_number(rest, "y"), z = read_number(rest, "z");
         mesh.vertices.emplace_back(x, y, z);
+        mesh.vertex_lines.push_back(line_);
     } else if (keyword == "vt") {
         const double u = read_number(rest, "u");
-        texture_.emplace_back(u, trimmed(rest).empty() ? 0 : read_number(rest, "v"));
+        mesh.texture.emplace_back(u, trimmed(rest).empty() ? 0 : read_number(rest, "v"));
     } else if (keyword == "f") {
         read_face(rest);
     } else if (keyword == "o" || keyword == "g") {
@@ -156,8 +153,8 @@ Corner ObjReader::read_corner(std::string_view word)
     if (!word.empty() && word.front() == '/') {
         word.remove_prefix(1);
         if (!word.empty() && word.front() != '/')
-            corner.texture =
-                read_index(word, int(texture_.size()), "texture coordinate", largest_texture_, largest_texture_line_);
+            corner.texture = read_index(word, int(mesh.texture.size()), "texture coordinate", largest_texture_,
+                                        largest_texture_line_);
         // The index of a normal follows; normals are not read.
         if (!word.empty() && word.front() == '/')
             word.remove_prefix(std::min(word.find_first_not_of("-0123456789", 1), word.size()));
@@ -168,72 +165,71 @@ Corner ObjReader::read_corner(std::string_view word)
 
 void ObjReader::read_face(std::string_view line)
 {
-    corners_.clear();
-    for (std::string_view word = take_word(line); !word.empty() && word.front() != '#'; word = take_word(line))
-        corners_.push_back(read_corner(word));
-    if (corners_.size() < 3)
-        refuse(line_, "a face with " + std::to_string(corners_.size()) + " vertices", "at least 3 vertices");
-    for (std::size_t corner = 2; corner < corners_.size(); ++corner) {
-        const Corner &a = corners_[0], &b = corners_[corner - 1], &c = corners_[corner];
-        mesh.faces.push_back({a.vertex, b.vertex, c.vertex});
-        face_textures_.push_back({a.texture, b.texture, c.texture});
-        face_lines.push_back(line_);
+    const std::size_t first = mesh.corner_vertices.size();
+    for (std::string_view word = take_word(line); !word.empty() && word.front() != '#'; word = take_word(line)) {
+        const Corner corner = read_corner(word);
+        if (corner.texture >= 0 && mesh.corner_textures.empty())
+            mesh.corner_textures.resize(mesh.corner_vertices.size(), -1);
+        if (corner.texture >= 0 || !mesh.corner_textures.empty()) mesh.corner_textures.push_back(corner.texture);
+        mesh.corner_vertices.push_back(corner.vertex);
     }
+    const std::size_t count = mesh.corner_vertices.size() - first;
+    if (count < 3) refuse(line_, "a face with " + std::to_string(count) + " vertices", "at least 3 vertices");
+    mesh.polygon_starts.push_back(int(first));
+    mesh.polygon_lines.push_back(line_);
 }
 
 void ObjReader::start_part(std::string_view name)
 {
-    const int face = int(mesh.faces.size());
-    if (mesh.parts.empty() && face > 0) mesh.parts.push_back({"", 0, 0});
-    if (!mesh.parts.empty() && mesh.parts.back().first_face == face) mesh.parts.pop_back();
-    mesh.parts.push_back({std::string(name), face, 0});
+    const int polygon = mesh.polygon_count();
+    if (mesh.parts.empty() && polygon > 0) mesh.parts.push_back({"", 0, 0});
+    if (!mesh.parts.empty() && mesh.parts.back().first_face == polygon) mesh.parts.pop_back();
+    mesh.parts.push_back({std::string(name), polygon, 0});
 }
 
 void ObjReader::finish_parts()
 {
-    const int face_count = int(mesh.faces.size());
-    if (!mesh.parts.empty() && mesh.parts.back().first_face == face_count) mesh.parts.pop_back();
+    const int count = mesh.polygon_count();
+    if (!mesh.parts.empty() && mesh.parts.back().first_face == count) mesh.parts.pop_back();
     for (std::size_t part = 0; part < mesh.parts.size(); ++part) {
-        const int end = part + 1 < mesh.parts.size() ? mesh.parts[part + 1].first_face : face_count;
+        const int end = part + 1 < mesh.parts.size() ? mesh.parts[part + 1].first_face : count;
         mesh.parts[part].face_count = end - mesh.parts[part].first_face;
     }
 }
 
-void ObjReader::fill_texture(std::vector<Vec2>& texture) const
+// Compares texts so that runs of digits count as numbers: 2 before 10.
+bool naturally_before(std::string_view a, std::string_view b)
 {
-    texture.clear();
-    if (texture_.empty()) return;
-    std::vector<char> known(mesh.vertices.size(), 0);
-    texture.assign(mesh.vertices.size(), Vec2::Zero());
-    for (std::size_t face = 0; face < mesh.faces.size(); ++face)
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const std::size_t vertex = std::size_t(mesh.faces[face][corner]);
-            const int index = face_textures_[face][corner];
-            if (index < 0)
-                refuse(face_lines[face], "vertex " + std::to_string(vertex + 1) + " without texture coordinates",
-                       "texture coordinates at every corner, as other corners have them");
-            const Vec2& value = texture_[std::size_t(index)];
-            if (known[vertex] && texture[vertex] != value)
-                refuse(face_lines[face], "a second texture coordinate of vertex " + std::to_string(vertex + 1),
-                       "one per vertex: cut the mesh where its rest shape is cut");
-            texture[vertex] = value;
-            known[vertex] = 1;
+    const auto take_digits = [](std::string_view& text) {
+        std::size_t count = 0;
+        while (count < text.size() && text[count] >= '0' && text[count] <= '9') ++count;
+        std::string_view digits = text.substr(0, count);
+        text.remove_prefix(count);
+        while (digits.size() > 1 && digits.front() == '0') digits.remove_prefix(1);
+        return digits;
+    };
+    const std::string_view whole_a = a, whole_b = b;
+    while (!a.empty() && !b.empty()) {
+        const std::string_view m = take_digits(a), n = take_digits(b);
+        if (m.empty() || n.empty()) {
+            if (m != n) return !m.empty();
+            if (a.front() != b.front()) return a.front() < b.front();
+            a.remove_prefix(1);
+            b.remove_prefix(1);
+        } else if (m != n) {
+            return m.size() != n.size() ? m.size() < n.size() : m < n;
         }
+    }
+    if (a.empty() != b.empty()) return a.empty();
+    return whole_a < whole_b;
 }
 
-double metres_per(LengthUnit unit)
+// The number that a whole text is, or -1.
+long long number_of(std::string_view text)
 {
-    switch (unit) {
-        case LengthUnit::cm:
-            return 0.01;
-        case LengthUnit::mm:
-            return 0.001;
-        case LengthUnit::inch:
-            return 0.0254;
-        case LengthUnit::m:
-            break;
-    }
-    return 1;
+    long long number = -1;
+    const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), number);
+    return end.ec == std::errc() && end.ptr == text.data() + text.size() && number >= 0 ? number : -1;
 }
 
 void append_numbers(std::string& text, const char* keyword, const double* values, int count)
@@ -260,7 +256,7 @@ std::string one_line(std::string name)
 
 }  // namespace
 
-std::vector<std::string> sequence_files(const std::string& pattern, const InputPlace& place)
+std::vector<SequenceFile> sequence_files(const std::string& pattern, const InputPlace& place)
 {
     namespace fs = std::filesystem;
     const fs::path whole(pattern);
@@ -269,39 +265,37 @@ std::vector<std::string> sequence_files(const std::string& pattern, const InputP
     if (star == std::string::npos || name.find('*', star + 1) != std::string::npos)
         throw InputError(place, "`" + pattern + "`", "a file name with one *, such as pose_*.obj");
     const std::string head = name.substr(0, star), tail = name.substr(star + 1);
-    std::vector<std::string> files;
+    std::vector<SequenceFile> files;
     std::error_code error;
     for (const auto& entry :
          fs::directory_iterator(whole.has_parent_path() ? whole.parent_path() : fs::path("."), error)) {
         const std::string found = entry.path().filename().string();
         if (found.size() + 1 >= name.size() && found.starts_with(head) && found.ends_with(tail))
-            files.push_back(entry.path().string());
+            files.push_back({entry.path().string(),
+                             number_of(std::string_view(found).substr(star, found.size() + 1 - name.size()))});
     }
     if (files.empty()) throw InputError(place, "`" + pattern + "`, no such files", "OBJ files of a body's poses");
-    std::sort(files.begin(), files.end());
+    std::sort(files.begin(), files.end(), [](const SequenceFile& a, const SequenceFile& b) {
+        if (a.number != b.number && a.number >= 0 && b.number >= 0) return a.number < b.number;
+        if ((a.number < 0) != (b.number < 0)) return a.number >= 0;
+        return naturally_before(a.path, b.path);
+    });
+    for (std::size_t k = 1; k < files.size(); ++k)
+        if (files[k].number >= 0 && files[k].number == files[k - 1].number)
+            throw InputError(place,
+                             "`" + files[k - 1].path + "` and `" + files[k].path + "`, which have the same number",
+                             "one file for each pose");
     return files;
 }
 
-TriangleMesh read_obj(const std::string& path, LengthUnit unit, Axis up_axis, std::vector<Vec2>* texture)
+ObjMesh read_obj(const std::string& path, LengthUnit unit, Axis up_axis)
 {
     const double scale = metres_per(unit);
     const Mat3 turn = scale * z_up_from(up_axis);
     ObjReader reader(path);
     reader.read(read_file_text(path, "an OBJ file"));
-    if (texture) reader.fill_texture(*texture);
     for (Vec3& vertex : reader.mesh.vertices) vertex = turn * vertex;
     return std::move(reader.mesh);
-}
-
-int obj_face_line(const std::string& path, int face)
-{
-    try {
-        ObjReader reader(path);
-        reader.read(read_file_text(path, "an OBJ file"));
-        return face < int(reader.face_lines.size()) ? reader.face_lines[std::size_t(face)] : 0;
-    } catch (const InputError&) {
-        return 0;
-    }
 }
 
 void write_obj(const std::string& path, std::span<const ObjObject> objects)

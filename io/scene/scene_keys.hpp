@@ -22,23 +22,28 @@
     KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                      \
     VEC3(copy_offset, 0, 0, 1, "m", "way from one copy to the next")
 
-#define SHEET_KEYS(KEY, WORD, CHOICE, VEC3)                                                                           \
-    WORD(name, "", "name in messages, of its pins and in final.obj; none: sheet[0], sheet[1] ...")                    \
-    CHOICE(shape, SheetShape, rectangle, "outline of the sheet")                                                      \
-    WORD(mesh, "", "OBJ file of the sheet (shape = mesh); texture coordinates give its rest shape, in metres")        \
-    KEY(double, width, 1, "m", 1e-3, 100, "extent along weft (rectangle)")                                            \
-    KEY(double, height, 1, "m", 1e-3, 100, "extent along warp (rectangle)")                                           \
-    KEY(double, radius, 0.15, "m", 1e-3, 100, "radius (disc)")                                                        \
-    KEY(int, resolution, 65, "1", 2, 4097, "vertices per side; across the diameter for a disc")                       \
-    CHOICE(                                                                                                           \
-        mesh_family, MeshFamily, automatic,                                                                           \
-        "triangles: alternating (automatic) to irregular for a rectangle; panel (automatic), equilateral, square or " \
-        "irregular for a disc")                                                                                       \
-    WORD(fabric, "cotton", "a preset's name or a [fabric.NAME] table")                                                \
-    CHOICE(unit, LengthUnit, m, "length unit of the mesh file")                                                       \
-    CHOICE(up_axis, Axis, z, "up direction of the mesh file")                                                         \
-    VEC3(center, 0, 0, 1, "m", "where the middle of the sheet starts")                                                \
-    VEC3(rotation, 0, 0, 0, "degrees", "turns about x, then y, then z; without them the sheet lies flat")
+#define SHEET_KEYS(KEY, WORD, CHOICE, VEC3)                                                                            \
+    WORD(name, "", "name in messages, of its pins and in final.obj; none: sheet[0], sheet[1] ...")                     \
+    CHOICE(shape, SheetShape, rectangle, "outline of the sheet")                                                       \
+    WORD(mesh, "", "OBJ file of the sheet (shape = mesh); texture coordinates give its rest shape")                    \
+    KEY(double, width, 1, "m", 1e-3, 100, "extent along weft (rectangle)")                                             \
+    KEY(double, height, 1, "m", 1e-3, 100, "extent along warp (rectangle)")                                            \
+    KEY(double, radius, 0.15, "m", 1e-3, 100, "radius (disc)")                                                         \
+    KEY(int, resolution, 65, "1", 2, 4097, "vertices per side; across the diameter for a disc")                        \
+    CHOICE(                                                                                                            \
+        mesh_family, MeshFamily, automatic,                                                                            \
+        "triangles: alternating (automatic) to irregular for a rectangle; panel (automatic), equilateral, square or "  \
+        "irregular for a disc")                                                                                        \
+    WORD(fabric, "cotton", "a preset's name or a [fabric.NAME] table")                                                 \
+    CHOICE(unit, LengthUnit, m, "length unit of the mesh file")                                                        \
+    CHOICE(texture_unit, LengthUnit, m, "length unit of the mesh file's texture coordinates")                          \
+    CHOICE(up_axis, Axis, z, "up direction of the mesh file")                                                          \
+    WORD(weld, "seams",                                                                                                \
+         "which vertices of the mesh file are joined: seams, those on each other where texture coordinates differ; "   \
+         "none; exact, all that lie on each other; or all within a distance [m]")                                      \
+    VEC3(center, 0, 0, 1, "m", "where the middle of the sheet starts; a mesh without it starts where its file has it") \
+    VEC3(rotation, 0, 0, 0, "degrees",                                                                                 \
+         "turns about the middle, about x, then y, then z; without them a rectangle or disc lies flat")
 
 #define BODY_KEYS(KEY, WORD, CHOICE, VEC3)                                                                            \
     WORD(name, "", "name in messages and in body.obj")                                                                \
@@ -53,6 +58,10 @@
     VEC3(normal, 0, 0, 1, "1", "upward normal (plane), axis (torus)")                                                 \
     VEC3(rotation, 0, 0, 0, "degrees", "turns about x, then y, then z (mesh, mannequin)")                             \
     KEY(double, scale, 1, "1", 1e-4, 1e4, "scales the mesh")                                                          \
+    WORD(weld, "none",                                                                                                \
+         "which vertices of the mesh file are joined: none; exact, all that lie on each other; or all within a "      \
+         "distance [m]")                                                                                              \
+    KEY(double, close_holes, 0, "m", 0, 100, "closes holes of the mesh whose rim is at most this long")               \
     KEY(double, radius, 0.25, "m", 1e-4, 100,                                                                         \
         "radius (sphere, capsule, cylinder), of the base (cone), of the circle in the middle of the tube (torus)")    \
     KEY(double, height, 0.1, "m", 1e-4, 100, "height of an upright cylinder or cone")                                 \

@@ -100,9 +100,10 @@ void TableReader::read(const char* name, std::string& target)
     const toml::node* node = find(name);
     if (!node) return;
     const auto* text = node->as_string();
-    // `until` alone is a word or a number; it is kept as text either way.
+    // These are words or numbers; they are kept as text either way.
+    const bool may_be_number = std::string_view(name) == "until" || std::string_view(name) == "weld";
     const std::optional<double> number = number_of(*node);
-    if (!text && number && std::string_view(name) == "until") {
+    if (!text && number && may_be_number) {
         target = number_text(*number);
         return;
     }

@@ -50,7 +50,10 @@ FILES = {"body.obj": tetrahedron(0.2), "inches.obj": tetrahedron(8),
          "taller.obj": tetrahedron(0.2, -0.05), "sheet.obj": grid_mesh(4, 0.2),
          "smaller.obj": grid_mesh(4, 0.15), "pose_1.obj": tetrahedron(0.2), "pose_2.obj": tetrahedron(0.25),
          "other_1.obj": tetrahedron(0.2), "other_2.obj": tetrahedron(0.3), "plain.json": pattern(),
-         "turned.json": pattern((20, 30, 40))}
+         "turned.json": pattern((20, 30, 40)),
+         "loose.obj": "v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nv 0.2 0 0\nv 0.2 0.2 0\nv 0 0.2 0\nf 1 2 3\nf 4 5 6\n",
+         "touching.obj": tetrahedron(0.2) + "v 0 0 0.2\nv 0.1 0 0.3\nv 0 0.1 0.3\nv 0 0 0.4\n"
+                         "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n"}
 
 # Scenes in which keys count ----------------------------------------------
 
@@ -175,13 +178,15 @@ CASES = {
     "sheet": {"name": (DROP, "towel"), "shape": (DROP, "mesh"), "mesh": (MESH, "smaller.obj"), "width": (DROP, 0.3),
               "height": (DROP, 0.3), "radius": (scene(sheet=[{"shape": "disc", "resolution": 5}]), 0.2),
               "resolution": (DROP, 6), "mesh_family": (DROP, "cross"), "fabric": (DROP, "silk"),
-              "unit": (MESH, "inch"), "up_axis": (MESH, "y"), "center": (DROP, [0, 0, 2]),
+              "unit": (MESH, "inch"), "texture_unit": (MESH, "dm"), "up_axis": (MESH, "y"),
+              "weld": (scene(sheet=[{"shape": "mesh", "mesh": "loose.obj"}]), "exact"), "center": (DROP, [0, 0, 2]),
               "rotation": (DROP, [20, 0, 0])},
     "body": {"name": (on_body("plane"), "floor"), "shape": (on_body("cylinder"), "cone"),
              "mesh": (on_body("mesh"), "taller.obj"), "unit": (on_body("mesh", mesh="inches.obj", unit="inch"), "cm"),
              "up_axis": (on_body("mesh"), "x"), "center": (on_body("sphere"), [0, 0, -0.1]),
              "end": (on_body("capsule"), [0, 1, 0]), "normal": (on_body("plane"), [0, 0.1, 1]),
              "rotation": (on_body("mesh"), [0, 0, 30]), "scale": (on_body("mesh"), 0.9),
+             "weld": (on_body("mesh", mesh="touching.obj"), "exact"), "close_holes": (on_body("mesh"), 1),
              "radius": (on_body("sphere"), 0.24), "height": (on_body("cone"), 0.09), "tube": (on_body("torus"), 0.01),
              "friction": (SLOPE, 5), "size": (MANNEQUIN, "L"), "stature": (MANNEQUIN, 1.6), "bust": (MANNEQUIN, 1.0),
              "waist": (MANNEQUIN, 0.8), "hips": (MANNEQUIN, 1.1), "shoulder_width": (MANNEQUIN, 0.42),

@@ -224,7 +224,8 @@ TEST_CASE("the longest step is the one that moves no body further than the given
 TEST_CASE("the mannequin raises its arms and leaves its trunk where it is")
 {
     const Scene scene = scene_with("[[body]]\nshape = \"mannequin\"\n[[body.keyframe]]\ntime = 1\narm_angle = 0\n");
-    const std::vector<Body> bodies = build_bodies(scene);
+    std::vector<Finding> findings;
+    const std::vector<Body> bodies = build_bodies(scene, findings);
     REQUIRE(bodies.at(0).motion);
     const TriangleMesh before = body_mesh_at(bodies[0], 0), after = body_mesh_at(bodies[0], 1);
     double highest_hand = 0, span = 0, trunk_moved = 0;
@@ -253,7 +254,8 @@ TEST_CASE("a sequence of meshes and a single target pose move a body, and other 
     tetrahedron("other.obj", 4, "f 2 4 1");
     const auto built = [&](const std::string& body) {
         const std::string text = "[[sheet]]\nresolution = 3\n[[body]]\nshape = \"mesh\"\n" + body;
-        return build_bodies(read_scene(folder.write("scene.toml", text), {})).at(0);
+        std::vector<Finding> findings;
+        return build_bodies(read_scene(folder.write("scene.toml", text), {}), findings).at(0);
     };
     const Body sequence = built("sequence = \"pose_*.obj\"\nsequence_rate = 2\n");
     CHECK(sequence.motion->end() == 1);

@@ -6,6 +6,7 @@
 #include "host/collision/body_query.hpp"
 #include "host/mesh/body_tessellation.hpp"
 #include "host/model/body.hpp"
+#include "validation/measure/closed_surface.hpp"
 #include "validation/unit/catch.hpp"
 
 using namespace selvage;

@@ -81,24 +81,31 @@ TEST_CASE("every mesh family fills its rectangle or disc with faces that look up
 
 TEST_CASE("a sheet from a mesh takes its rest shape from texture coordinates, or its own plane if it is flat")
 {
-    TriangleMesh mesh;
-    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 2}, {0, 0, 2}};
-    mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+    LoadedSheet loaded;
+    loaded.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 2}, {0, 0, 2}};
+    loaded.mesh.faces = {{0, 1, 2}, {0, 2, 3}};
     SheetScene sheet;
-    sheet.center = Vec3(5, 5, 5);
-    const Cloth flat = sheet_from_mesh(mesh, {}, sheet, "scene.toml", "sheet[1]");
+    const auto made = [&](const std::optional<Vec3>& center) {
+        return sheet_from_mesh(loaded, sheet, center, "scene.toml", "sheet[1]");
+    };
+    CHECK(made({}).positions == loaded.mesh.vertices);
+    const Cloth flat = made(Vec3(5, 5, 5));
     CHECK(flat.panels[0].rest_area == Approx(2));
     CHECK((flat.positions[0] - Vec3(4.5, 5, 4)).norm() < 1e-12);
     for (const Face& face : flat.faces) CHECK(face_area(flat, face) == Approx(1));
+    sheet.rotation = Vec3(0, 180, 0);
+    CHECK((made({}).positions[0] - Vec3(1, 0, 2)).norm() < 1e-12);
 
-    mesh.vertices[2].y() = 0.3;
-    CHECK_THROWS_WITH(sheet_from_mesh(mesh, {}, sheet, "scene.toml", "sheet[1]"), contains_text("sheet[1].mesh"));
-    const std::vector<Vec2> rest{{0, 0}, {-1, 0}, {-1, 2}, {0, 2}};  // seen from behind
-    const Cloth textured = sheet_from_mesh(mesh, rest, sheet, "scene.toml", "sheet[1]");
+    loaded.mesh.vertices[2].y() = 0.3;
+    CHECK_THROWS_WITH(made({}), contains_text("sheet[1].mesh"));
+    loaded.rest = {{0, 0}, {-1, 0}, {-1, 2}, {0, 2}};  // seen from behind
+    const Cloth textured = made({});
     CHECK(textured.panels[0].rest_area == Approx(2));
     CHECK(textured.panels[0].rest_boundary == Approx(6));
-    const std::vector<Vec2> folded{{0, 0}, {1, 0}, {1, 2}, {2, 0}};
-    CHECK_THROWS_WITH(sheet_from_mesh(mesh, folded, sheet, "scene.toml", "sheet[1]"), contains_text("turned over"));
+    loaded.rest = {{0, 0}, {1, 0}, {1, 2}, {2, 0}};
+    loaded.file = "folded.obj";
+    loaded.face_lines = {5, 6};
+    CHECK_THROWS_WITH(made({}), contains_text("folded.obj:5") && contains_text("turned over"));
 }
 
 TEST_CASE("a prolongation between sheets of different resolution reproduces linear functions")

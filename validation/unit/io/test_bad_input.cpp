@@ -2,7 +2,6 @@
 #include <vector>
 
 #include "io/errors.hpp"
-#include "io/mesh/body_mesh.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/pattern/pattern_json.hpp"
 #include "io/scene/read_scene.hpp"
@@ -98,8 +97,7 @@ void check_objs(const std::vector<BadText>& objs)
     const ScratchFolder folder;
     for (const BadText& bad : objs) {
         const std::string path = folder.write("bad.obj", bad.text);
-        std::vector<Vec2> texture;
-        const std::string message = message_of([&] { read_obj(path, LengthUnit::m, Axis::z, &texture); });
+        const std::string message = message_of([&] { read_obj(path, LengthUnit::m, Axis::z); });
         check_message(message, {"bad.obj", "found ", "expected "});
         check_message(message, bad.message);
     }
@@ -319,28 +317,6 @@ TEST_CASE("bad OBJ files are refused with the line")
         {points + "f 1 2 3.5\n", {":4:", "`3.5`", "i/t/n"}},
         {points + "f 1 2 99999999999\n", {":4:", "`99999999999`"}},
         {points + "vt 0 0\nf 1/1 2/1 3/2\n", {":5:", "index 2", "texture"}},
-        {points + "vt 0 0\nf 1/1 2/1 3\n", {":5:", "vertex 3", "texture"}},
-        {points + "v 1 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 2/1 4/1 3/2\n", {":8:", "vertex 3", "one per vertex"}},
     });
     check_message(message_of([] { read_obj("nowhere.obj", LengthUnit::m, Axis::z); }), {"nowhere.obj", "no such file"});
-}
-
-TEST_CASE("bodies that are no closed solid of plausible size are refused")
-{
-    const ScratchFolder folder;
-    const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-    const std::string solid = points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-    const auto refused = [&](const std::string& text, LengthUnit unit) {
-        const std::string path = folder.write("body.obj", text);
-        return message_of([&] { require_closed_body(read_obj(path, unit, Axis::z), path); });
-    };
-    CHECK(refused(solid, LengthUnit::m) == "no InputError");
-    check_message(refused(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\n", LengthUnit::m),
-                  {"body.obj", "holes", "3 open edges", "at ("});
-    check_message(refused(solid, LengthUnit::mm), {"body.obj", "0.001 m", "0.05 to 5 m", "unit"});
-    check_message(refused("v 0 0 170\n" + solid.substr(8), LengthUnit::m), {"170 m", "0.05 to 5 m", "unit = \"cm\""});
-    check_message(refused(points + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", LengthUnit::m),
-                  {"inward", "counter-clockwise"});
-    check_message(refused(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n", LengthUnit::m), {"disagree", "3 edges"});
-    check_message(refused(solid + "f 2 1 1\n", LengthUnit::m), {"body.obj:9:", "without area", "m^2"});
 }
