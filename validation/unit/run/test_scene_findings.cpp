@@ -70,7 +70,7 @@ TEST_CASE("motions that begin after the end of the run are told, and what lies b
 
 TEST_CASE("distances of contact beyond the edges, runs below a step and empty lists are told")
 {
-    const std::string fine = "[[sheet]]\nwidth = 0.01\nheight = 0.01\nresolution = 21\n";
+    const std::string fine = "[[sheet]]\nwidth = 0.02\nheight = 0.02\nresolution = 41\n";
     check_finding(fine + ball + "center = [0, 0, -3]\n", {"warning contact", "contact.gap", "0.002 m", "0.0005"});
     check_finding(fine + "fabric = \"f\"\n[fabric.f]\nbase = \"cotton\"\nthickness = 0.003\n",
                   {"warning contact", "s.toml:8:", "fabric.f.thickness", "0.003 m"});
