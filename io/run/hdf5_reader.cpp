@@ -370,6 +370,25 @@ Hdf5Reader::Attribute Hdf5Reader::attribute(const std::string& object, const cha
     return attribute;
 }
 
+// A dataset in one piece, whose values are not numbers: more texts than an attribute can hold.
+Hdf5Reader::Attribute Hdf5Reader::unfiltered_dataset(const std::string& name) const
+{
+    Attribute held;
+    if (!exists(name)) return held;
+    for (const Hdf5Message& message : messages(name)) {
+        const ByteView view = message.view();
+        require(message.type != external_files, "external storage: its data lie in another file");
+        if (message.type == dataspace) held.shape = shape_in(view);
+        if (message.type == datatype) held.type.assign(view.data(), view.data() + view.size());
+        if (message.type != data_layout) continue;
+        constexpr int version = 3, contiguous = 1;
+        require(view.number(0, 1) == version && view.number(1, 1) == contiguous, "storage of another kind");
+        held.data = objects_.block(view.number(2, 8), view.number(10, 8));
+        held.found = true;
+    }
+    return held;
+}
+
 // A single number of a type.
 template <class Value>
 Value Hdf5Reader::single(const std::string& object, const char* name) const
@@ -403,7 +422,8 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& object, const char
 {
     return guarded(object + "@" + name, [&] {
         constexpr std::uint64_t reference = 16;  // length, collection and index of a text
-        const Attribute held = attribute(object, name);
+        Attribute held = attribute(object, name);
+        if (!held.found) held = unfiltered_dataset(object + "/" + name);
         std::vector<std::string> result;
         if (!held.found) return result;
         const ByteView type(held.type), data(held.data);

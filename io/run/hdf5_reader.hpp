@@ -48,7 +48,8 @@ public:
     std::int64_t integer(const std::string& object, const char* name) const;  ///< A single one.
     double real(const std::string& object, const char* name) const;           ///< A single one.
     std::string text(const std::string& object, const char* name) const;
-    std::vector<std::string> texts(const std::string& object, const char* name) const;  ///< Empty if absent.
+    /// Of an attribute, or of a dataset of that name within the object; empty if neither is there.
+    std::vector<std::string> texts(const std::string& object, const char* name) const;
 
     [[noreturn]] void refuse(const std::string& object, std::string_view found, std::string_view expected) const;
 
@@ -92,6 +93,7 @@ private:
     std::vector<unsigned char> rows_of(const Dataset& dataset, std::uint64_t first, std::uint64_t rows,
                                        bool counted) const;
     Attribute attribute(const std::string& object, const char* name) const;
+    Attribute unfiltered_dataset(const std::string& name) const;
     template <class Value>
     Value single(const std::string& object, const char* name) const;
     template <class Value>
