@@ -33,7 +33,6 @@ Params bench_params()
     params.gravity.acceleration_z = -9.81;
     params.seam.stiffness = 400;
     params.body_contact.stiffness = 150;
-    params.wind.velocity_x = params.air_drag.velocity_x = 3;
     return params;
 }
 

@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 
 PROGRAM = os.environ.get("SELVAGE", "build/selvage")
+KILLS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "kills", "kills.py")
 GARMENT = ["builtin:vest", "--set", "garment.resolution=0.05"]  # tangles at its seams
 SHEET = ["builtin:sphere", "--set", "sheet.resolution=21", "--set", "solver.until=1"]
 COMMON = ["--quiet", "--threads", "1", "--set", "output.picture=false", "--set", "output.checkpoint_interval=0.2"]
@@ -67,8 +68,8 @@ class Folder(unittest.TestCase):
 class Killed(Folder):
     def test_runs_that_are_killed_and_resumed_again_and_again_end_bit_for_bit_as_those_left_alone(self):
         """The program of docs/resume.md with a few kills; by hand it is run with more."""
-        result = subprocess.run([sys.executable, "-B", "validation/kills/kills.py", "--kills", "9", "--scenes", "vest",
-                                 "sheets", "hanging", "--small"], capture_output=True, text=True, timeout=300,
+        result = subprocess.run([sys.executable, "-B", KILLS, "--kills", "9", "--scenes", "vest", "sheets", "hanging",
+                                 "--small"], capture_output=True, text=True, timeout=300,
                                 env={**os.environ, "SELVAGE": PROGRAM})
         print(result.stdout, end="")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)

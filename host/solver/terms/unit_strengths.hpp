@@ -3,7 +3,7 @@
 
 namespace selvage {
 
-/// Returns parameters with every strength set to one, so that every term is active.
+/// Returns parameters with every strength set to one, so that every term is active, in moving air.
 inline Params unit_strengths()
 {
     Params params;
@@ -18,6 +18,10 @@ inline Params unit_strengths()
 #undef TERM
 #undef PARAM
 #undef STRENGTH
+    // Only air that moves presses on cloth at rest.
+    params.wind.velocity_x = params.air_drag.velocity_x = 2;
+    params.wind.velocity_y = params.air_drag.velocity_y = -1;
+    params.wind.velocity_z = params.air_drag.velocity_z = 0.5;
     return params;
 }
 
