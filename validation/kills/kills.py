@@ -159,14 +159,16 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--small", action="store_true", help="smaller scenes")
-    parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
+    parser.add_argument("--scenes", nargs="+", choices=SCENES, help="all, or all that there are in small, if left out")
     arguments = parser.parse_args()
+    scenes = SMALL if arguments.small else SCENES
+    names = arguments.scenes or list(scenes)
     moments = random.Random(arguments.seed)
     faults = 0
-    for k, name in enumerate(arguments.scenes):
-        share = arguments.kills * (k + 1) // len(arguments.scenes) - arguments.kills * k // len(arguments.scenes)
+    for k, name in enumerate(names):
+        share = arguments.kills * (k + 1) // len(names) - arguments.kills * k // len(names)
         with tempfile.TemporaryDirectory() as root:
-            scene = Scene(name, (SMALL if arguments.small else SCENES)[name], root, arguments.threads)
+            scene = Scene(name, scenes[name], root, arguments.threads)
             scene.kill_runs(share, moments)
         print(f"{name}: {scene.kills} kills within {scene.duration:.1f} s each, {scene.resumed} of resumed runs, "
               f"{len(scene.faults)} faults {sorted(set(scene.faults))}", flush=True)
