@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "host/collision/cloth_tree.hpp"
@@ -20,7 +21,8 @@ TreeMemory ClothTree::memory(const TreeBodies& bodies) const
 
 void ClothTree::set_memory(TreeMemory memory)
 {
-    const auto is_corner = [this](int c) { return c >= 0 ? c < particles_ : slot(c) < int(start_.size()); };
+    const int fixed = int(start_.size()) - particles_;  // corners of bodies, counted from -1 downwards
+    const auto is_corner = [&](int c) { return c < particles_ && c >= -fixed; };
     const auto fits = [&](const std::vector<PairCandidate>& candidates) {
         return std::all_of(candidates.begin(), candidates.end(), [&](const PairCandidate& candidate) {
             return std::all_of(candidate.corner.begin(), candidate.corner.end(), is_corner);

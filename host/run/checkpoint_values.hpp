@@ -53,7 +53,8 @@ struct CheckpointLoader {
     std::vector<Vec3> vectors(std::string_view name) const;                  ///< Of any number.
     std::string word(const std::string& name) const;                         ///< Empty if there is none.
 
-    void operator()(std::string_view name, int& value) const { value = integers(name, 1)[0]; }
+    /// With room to count on, up or down.
+    void operator()(std::string_view name, int& value) const { value = integer(name, -(1 << 30), 1 << 30); }
     void operator()(std::string_view name, bool& value) const { value = integer(name, 0, 1) == 1; }
     void operator()(std::string_view name, double& value) const { value = reals(name, 1)[0]; }
     /// Only of the size that the array has.

@@ -187,7 +187,7 @@ CoarseStart coarse_of(const CheckpointLoader& load, const std::vector<std::size_
 RunIdentity identity_of(const RunSettings& settings, const SceneModel& model)
 {
     const ClothModel& cloths = model.cloth_model;
-    RunIdentity identity{settings.values, hash_of_meshes(cloths), {}};
+    RunIdentity identity{settings.values, hash_of_meshes(cloths), {}, int(cloths.cloth.faces.size())};
     for (std::size_t level = settings.coarser.size(); level-- > 0;)
         identity.carried_to.push_back((level == 0 ? cloths.cloth : cloths.coarser[level - 1]).positions.size());
     return identity;
@@ -232,6 +232,7 @@ RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path,
     p.stability = stability_of(load);
     p.coarse = coarse_of(load, identity.carried_to, p.stage == RunStage::coarse);
     if (p.frames < 0) load.refuse("frames", fmt::format("{}", p.frames), "a count");
+    p.counters.largest.face = load.integer("largest.face", -1, identity.faces - 1);
     std::istringstream integrators(load.word("integrators"));
     for (std::string name; integrators >> name;) p.counters.integrators.push_back(name);
     for (const auto& [name, values] : checkpoint.reals)

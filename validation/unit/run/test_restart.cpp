@@ -1,3 +1,4 @@
+#include <climits>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -30,7 +31,7 @@ struct Run {
     }
 };
 
-RunIdentity some_identity() { return {{{"solver.step", "0.02"}, {"solver.until", "2"}}, "0123", {}}; }
+RunIdentity some_identity() { return {{{"solver.step", "0.02"}, {"solver.until", "2"}}, "0123", {}, 50}; }
 
 RunProgress some_progress()
 {
@@ -39,7 +40,7 @@ RunProgress some_progress()
     p.sewing = {0.2, 3, 0.4, 0.5, 0.6, {0.7}};
     p.pressing = {8, {0.9}};
     p.draping = {1.2, 13, 1.4, {1.5, 1, 1.6, 1.7, 1.8}, 16, 0};
-    p.counters = {17, 18, 19, 2.1, {{"drape", 2.2}, {"sew", 2.3}}, {"bdf2", "implicit_euler"}};
+    p.counters = {17, 18, 19, 2.1, {{"drape", 2.2}, {"sew", 2.3}}, {"bdf2", "implicit_euler"}, {0.3, 49, 1.1}};
     p.frame = {26, true};
     p.stability = {2.7, 2.8, 2.9};
     p.ended = true;
@@ -47,6 +48,25 @@ RunProgress some_progress()
     p.frames = 25;
     return p;
 }
+
+// A run that has been saved, and what it saved.
+struct SavedRun {
+    ScratchFolder folder;
+    std::string path = folder.path("checkpoint.h5");
+    Run run;
+    Checkpoint checkpoint = save();
+
+    Checkpoint save(const RunProgress& progress = some_progress())
+    {
+        save_run(path, some_identity(), progress, run.phase, *run.integrator);
+        return read_checkpoint(path);
+    }
+    void load(const Checkpoint& other)
+    {
+        load_progress(other, path, some_identity());
+        load_phase(other, path, run.phase, *run.integrator);
+    }
+};
 
 }  // namespace
 
@@ -80,13 +100,9 @@ TEST_CASE("every kept field, the time and all that the integrator remembers come
 
 TEST_CASE("progress that is loaded and saved again leaves the same checkpoint")
 {
-    const ScratchFolder folder;
-    const std::string path = folder.path("checkpoint.h5");
-    Run run;
-    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
-    const Checkpoint first = read_checkpoint(path);
-    save_run(path, some_identity(), load_progress(first, path, some_identity()), run.phase, *run.integrator);
-    const Checkpoint second = read_checkpoint(path);
+    SavedRun saved;
+    const Checkpoint first = saved.checkpoint;
+    const Checkpoint second = saved.save(load_progress(first, saved.path, some_identity()));
     CHECK(first.reals == second.reals);
     CHECK(first.integers == second.integers);
     CHECK(first.words == second.words);
@@ -96,17 +112,13 @@ TEST_CASE("progress that is loaded and saved again leaves the same checkpoint")
 
 TEST_CASE("a checkpoint that lacks any of its entries is refused by that entry's name")
 {
-    const ScratchFolder folder;
-    const std::string path = folder.path("checkpoint.h5");
-    Run run;
-    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
-    const Checkpoint whole = read_checkpoint(path);
+    SavedRun saved;
+    const Checkpoint whole = saved.checkpoint;
     const auto check_refused = [&](const Checkpoint& part, const std::string& name) {
         INFO(name);
         std::string message;
         try {
-            load_progress(part, path, some_identity());
-            load_phase(part, path, run.phase, *run.integrator);
+            saved.load(part);
         } catch (const InputError& error) {
             message = error.what();
         }
@@ -127,11 +139,9 @@ TEST_CASE("a checkpoint that lacks any of its entries is refused by that entry's
 
 TEST_CASE("a checkpoint of another scene is refused by the keys that differ, but for those that may change")
 {
-    const ScratchFolder folder;
-    const std::string path = folder.path("checkpoint.h5");
-    Run run;
-    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
-    const Checkpoint checkpoint = read_checkpoint(path);
+    const SavedRun saved;
+    const Checkpoint& checkpoint = saved.checkpoint;
+    const std::string& path = saved.path;
     RunIdentity longer = some_identity(), finer = some_identity(), newer = some_identity();
     longer.scene["solver.until"] = "3";
     CHECK(load_progress(checkpoint, path, longer).frames == 25);
@@ -169,11 +179,42 @@ TEST_CASE("a checkpoint is refused when any of its bits has changed, or when it 
 
 TEST_CASE("numbers that are not finite are refused by the name of their array")
 {
-    const ScratchFolder folder;
-    const std::string path = folder.path("checkpoint.h5");
-    Run run;
-    save_run(path, some_identity(), some_progress(), run.phase, *run.integrator);
-    Checkpoint checkpoint = read_checkpoint(path);
+    SavedRun saved;
+    Checkpoint checkpoint = saved.checkpoint;
     checkpoint.reals["pos"][4] = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH(load_phase(checkpoint, path, run.phase, *run.integrator), contains_text("pos"));
+    CHECK_THROWS_WITH(saved.load(checkpoint), contains_text("pos"));
+}
+
+TEST_CASE("indices that lead nowhere and counts that cannot be are refused by the name of their array")
+{
+    SavedRun saved;
+    for (const int face : {50, -2, INT_MAX, INT_MIN}) {
+        Checkpoint checkpoint = saved.checkpoint;
+        checkpoint.integers["largest.face"] = {face};
+        CHECK_THROWS_WITH(saved.load(checkpoint), contains_text("largest.face"));
+    }
+    for (const int count : {INT_MAX, INT_MIN}) {
+        Checkpoint checkpoint = saved.checkpoint;
+        checkpoint.integers["counters.steps"] = {count};
+        CHECK_THROWS_WITH(saved.load(checkpoint), contains_text("counters.steps"));
+    }
+}
+
+TEST_CASE("corners of pairs that lead nowhere are refused")
+{
+    SavedRun saved;
+    SceneRunner touching{"builtin:sphere", {"sheet.resolution=6"}};
+    Phase phase = touching.make_phase(true);
+    const std::unique_ptr<Integrator> integrator = make_integrator("bdf2", phase);
+    save_run(saved.path, some_identity(), some_progress(), phase, *integrator);
+    const Checkpoint whole = read_checkpoint(saved.path);
+    load_phase(whole, saved.path, phase, *integrator);
+    const int particles = phase.state().size.vertex_count;
+    for (const int corner : {particles, -(1 << 30), INT_MAX, INT_MIN}) {
+        INFO(corner);
+        Checkpoint checkpoint = whole;
+        checkpoint.integers["searches.asleep.keys"] = {0, 0, 1, 2, corner};
+        checkpoint.reals["searches.asleep.distance"] = {0.1};
+        CHECK_THROWS_WITH(load_phase(checkpoint, saved.path, phase, *integrator), contains_text("searches"));
+    }
 }
