@@ -20,17 +20,26 @@ std::size_t sequence_length(std::string_view text)
     return overlong || surrogate || beyond ? 0 : length;
 }
 
-}  // namespace
-
-std::string valid_utf8(std::string_view text)
+// @param controls  replaced as well: U+0000 to U+001F, U+007F and U+0080 to U+009F
+std::string sound_text(std::string_view text, bool controls)
 {
-    std::string valid;
+    std::string sound;
     while (!text.empty()) {
         const std::size_t length = sequence_length(text);
-        valid += length > 0 ? std::string(text.substr(0, length)) : "\xef\xbf\xbd";
+        const auto first = static_cast<unsigned char>(text[0]);
+        const bool of_two = first == 0xc2 && length == 2 && static_cast<unsigned char>(text[1]) < 0xa0;
+        const bool is_control = first < 0x20 || first == 0x7f || of_two;
+        const bool kept = length > 0 && !(controls && is_control);
+        sound += kept ? text.substr(0, length) : "\xef\xbf\xbd";
         text.remove_prefix(length > 0 ? length : 1);
     }
-    return valid;
+    return sound;
 }
+
+}  // namespace
+
+std::string valid_utf8(std::string_view text) { return sound_text(text, false); }
+
+std::string printable(std::string_view text) { return sound_text(text, true); }
 
 }  // namespace selvage

@@ -14,6 +14,7 @@
 #include "io/run/describe.hpp"
 #include "io/scene/fabric_table.hpp"
 #include "io/scene/read_scene.hpp"
+#include "io/utf8.hpp"
 
 namespace selvage {
 namespace {
@@ -96,7 +97,7 @@ Json describe_fabrics(const std::string& source, const std::vector<Fabric>& fabr
 // A value on one line: lists with commas, the members of an object as `name value`.
 std::string plain(const Json& value)
 {
-    if (value.is_string()) return value.get<std::string>();
+    if (value.is_string()) return printable(value.get<std::string>());
     if (value.is_null() || (value.is_number() && !std::isfinite(value.get<double>()))) return "automatic";
     if (value.is_number_float()) return rounded_text(value);
     if (!value.is_structured()) return value.dump();
@@ -108,7 +109,7 @@ std::string plain(const Json& value)
 
 std::string lines(const Json& held)
 {
-    std::string text = held["file"].get<std::string>() + ": " + held["kind"].get<std::string>() + "\n";
+    std::string text = plain(held["file"]) + ": " + held["kind"].get<std::string>() + "\n";
     for (const auto& [key, value] : held.items()) {
         if (key == "file" || key == "kind") continue;
         const bool of_objects = value.is_array() && !value.empty() && value.front().is_object();

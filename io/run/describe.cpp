@@ -7,6 +7,7 @@
 
 #include "io/run/trajectory.hpp"
 #include "io/steady_read.hpp"
+#include "io/utf8.hpp"
 
 namespace selvage {
 namespace {
@@ -38,7 +39,7 @@ std::string joined(const Json& names)
 {
     std::string text;
     for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
-    return text.empty() ? "-" : text;
+    return text.empty() ? "-" : printable(text);
 }
 
 }  // namespace
@@ -49,8 +50,8 @@ std::string describe_run(const std::string& path, bool json)
     if (json) return held.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     const int frame_count = held["frames"];
     const double grid = held["position_grid_m"];
-    std::string text = fmt::format("{}: run written by selvage {}, {:.2f} MB\n", path,
-                                   held["version"].get<std::string>(), held["bytes"].get<double>() / 1e6);
+    std::string text = fmt::format("{}: run written by selvage {}, {:.2f} MB\n", printable(path),
+                                   printable(held["version"].get<std::string>()), held["bytes"].get<double>() / 1e6);
     text += fmt::format("frames     {}", frame_count);
     if (frame_count > 0)
         text += fmt::format(", {:.4g} s to {:.4g} s", held["first_time_s"].get<double>(),

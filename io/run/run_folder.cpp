@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/utf8.hpp"
+
 namespace selvage {
 namespace {
 
@@ -37,9 +39,7 @@ std::string name_in(int descriptor)
 {
     std::array<char, 200> text{};
     const ssize_t count = ::pread(descriptor, text.data(), text.size(), 0);
-    std::string name(text.data(), std::size_t(std::max<ssize_t>(count, 0)));
-    std::erase_if(name, [](char c) { return c < ' ' || c > '~'; });
-    return name;
+    return printable({text.data(), std::size_t(std::max<ssize_t>(count, 0))});
 }
 
 }  // namespace

@@ -3,6 +3,16 @@
 
 using namespace selvage;
 
+TEST_CASE("text for a terminal has no control characters")
+{
+    const std::string sign = "\xef\xbf\xbd";
+    CHECK(printable("h\xc3\xa9md \xe2\x82\xac") == "h\xc3\xa9md \xe2\x82\xac");
+    CHECK(printable("\x1b[2Ja\rb\n\x7f") == sign + "[2Ja" + sign + "b" + sign + sign);
+    CHECK(printable("\xc2\x9b"
+                    "31m\xc2\xa0") == sign + "31m\xc2\xa0");  // CSI as one character; a space
+    CHECK(printable("\xff") == sign);
+}
+
 TEST_CASE("bytes that are no UTF-8 become U+FFFD one by one, and what is UTF-8 stays")
 {
     const std::string sign = "\xef\xbf\xbd";
