@@ -18,7 +18,7 @@ namespace {
 constexpr const char* reals = "/reals";
 constexpr const char* integers = "/integers";
 constexpr const char* words = "/words";
-constexpr const char* schema = "selvage-checkpoint-2";
+constexpr const char* schema = "selvage-checkpoint-3";
 constexpr std::string_view checksum_name = "selvage checksum ";  // then 16 hexadecimal digits: they end the file
 constexpr std::size_t checksum_length = checksum_name.size() + 16;
 
@@ -83,15 +83,10 @@ void require_checksum(const std::string& path)
         throw InputError(place, "contents that do not fit their checksum: the file is damaged", expected);
 }
 
-void protect(Hdf5File& file, const std::string& name, hid_t type, std::size_t size, const void* values)
+void put(Hdf5File& file, const std::string& name, hid_t type, std::size_t size, const void* values)
 {
-    if (size == 0) {
-        file.make_dataset(name, type, {0});
-        return;
-    }
-    const Hdf5Id dataset = file.make_dataset(name, type, {size},
-                                             {.compressed = false, .growing = false, .chunk = {size}, .checked = true});
-    require_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+    const Hdf5Id dataset = file.make_dataset(name, type, {size});
+    if (size > 0) require_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
 }
 
 }  // namespace
@@ -103,9 +98,9 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
         Hdf5File file(temporary.name(), Hdf5Access::create);
         for (const char* group : {reals, integers, words}) file.make_group(group);
         for (const auto& [name, values] : checkpoint.reals)
-            protect(file, member(reals, name), H5T_NATIVE_DOUBLE, values.size(), values.data());
+            put(file, member(reals, name), H5T_NATIVE_DOUBLE, values.size(), values.data());
         for (const auto& [name, values] : checkpoint.integers)
-            protect(file, member(integers, name), H5T_NATIVE_INT, values.size(), values.data());
+            put(file, member(integers, name), H5T_NATIVE_INT, values.size(), values.data());
         for (const auto& [name, word] : checkpoint.words) {
             file.make_group(member(words, name));
             file.set_text(member(words, name), "text", word);

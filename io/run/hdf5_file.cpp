@@ -130,7 +130,6 @@ Hdf5Id Hdf5File::make_dataset(const std::string& name, hid_t file_type, const st
         require_hdf5(H5Pset_chunk(properties, int(chunk.size()), chunk.data()), name);
         if (storage.compressed) require_hdf5(H5Pset_shuffle(properties), name);
         if (storage.compressed) require_hdf5(H5Pset_deflate(properties, 1), name);
-        if (storage.checked) require_hdf5(H5Pset_fletcher32(properties), name);
     }
     return {H5Dcreate2(file_, name.c_str(), file_type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, name};
 }

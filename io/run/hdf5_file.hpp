@@ -41,7 +41,6 @@ struct Hdf5Storage {
     bool compressed = false;  ///< By the shuffle filter and gzip level 1.
     bool growing = false;     ///< The first dimension is unlimited.
     std::vector<hsize_t> chunk;
-    bool checked = false;  ///< With a checksum per chunk, so that damage is detected when reading.
 };
 
 enum class Hdf5Access { create, append };

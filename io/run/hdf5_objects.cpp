@@ -25,6 +25,10 @@ constexpr std::uint64_t least_structure = 1 << 20;  // and this at least [bytes]
 constexpr int any_level = 256;             // of a group's tree; there is none so high
 constexpr std::size_t longest_name = 255;  // of a member; this program's have up to 40
 
+constexpr std::uint64_t object_header = 16;  // of a text in a global heap
+
+constexpr const char* newer_format = "HDF5 of a newer format than runs have: h5repack --low=0 writes the older one";
+
 constexpr std::uint64_t superblock_size = 96, root_header = 64, base_address = 24;
 
 void require(bool sound, const char* what)
@@ -87,7 +91,7 @@ Hdf5Objects::Hdf5Objects(const std::string& path)
             if (!view.starts_with("\x89HDF\r\n\x1a\n"))
                 fault = "another kind of file";
             else if (view.number(8, 1) != 0 || view.number(13, 2) != 0x808 || view.number(base_address, 8) != 0)
-                fault = "HDF5 of a newer format than runs have";
+                fault = newer_format;
             else
                 root_ = view.number(root_header, 8);
         }
@@ -101,12 +105,16 @@ Hdf5Objects::Hdf5Objects(const std::string& path)
 
 Hdf5Objects::~Hdf5Objects() { ::close(descriptor_); }
 
-std::vector<unsigned char> Hdf5Objects::block(std::uint64_t address, std::uint64_t count) const
+bool Hdf5Objects::holds(std::uint64_t bytes) const
 {
     struct stat status {};
-    const auto fits = [&] { return address <= size_ && count <= size_ - address; };
-    if (!fits() && ::fstat(descriptor_, &status) == 0) size_ = std::uint64_t(status.st_size);  // it may have grown
-    if (!fits())
+    if (bytes > size_ && ::fstat(descriptor_, &status) == 0) size_ = std::uint64_t(status.st_size);
+    return bytes <= size_;
+}
+
+std::vector<unsigned char> Hdf5Objects::block(std::uint64_t address, std::uint64_t count) const
+{
+    if (address > UINT64_MAX - count || !holds(address + count))
         throw std::runtime_error("damaged structure: " + std::to_string(count) + " bytes at " +
                                  std::to_string(address) + " of a file of " + std::to_string(size_));
     std::vector<unsigned char> bytes(static_cast<std::size_t>(count));
@@ -131,7 +139,8 @@ std::vector<Hdf5Message> Hdf5Objects::messages(std::uint64_t header) const
 {
     constexpr std::uint64_t prefix_size = 16, message_header = 8;
     const std::vector<unsigned char> prefix = structure(header, prefix_size);
-    require(ByteView(prefix).number(0, 1) == 1, "an object header of a newer format");
+    if (ByteView(prefix).starts_with("OHDR")) throw std::runtime_error(newer_format);
+    require(ByteView(prefix).number(0, 1) == 1, "an object without header");
     std::vector<Hdf5Message> messages;
     std::vector<std::array<std::uint64_t, 2>> blocks{{header + prefix_size, ByteView(prefix).number(8, 4)}};
     std::uint64_t total = 0;
@@ -221,26 +230,34 @@ std::uint64_t Hdf5Objects::find(const std::string& path, int links) const
     return header;
 }
 
-std::string Hdf5Objects::heap_object(std::uint64_t collection, std::uint32_t index) const
+// Keeps a collection of the global heap and where each of its objects is.
+void Hdf5Objects::read_heap(std::uint64_t collection) const
 {
-    constexpr std::uint64_t heap_header = 16, object_header = 16;
-    if (collection != heap_address_) {
-        const std::vector<unsigned char> start = structure(collection, heap_header);
-        require(ByteView(start).starts_with("GCOL"), "a text without its place");
-        heap_ = structure(collection, ByteView(start).number(8, 8));
-        heap_address_ = collection;
-    }
+    constexpr std::uint64_t heap_header = 16;
+    const std::vector<unsigned char> start = structure(collection, heap_header);
+    require(ByteView(start).starts_with("GCOL"), "a text without its place");
+    heap_address_ = no_address;
+    heap_ = structure(collection, ByteView(start).number(8, 8));
+    heap_places_.clear();
     const ByteView heap(heap_);
     for (std::uint64_t at = heap_header; at + object_header <= heap.size();) {
-        const std::uint64_t found = heap.number(at, 2), size = heap.number(at + 8, 8);
-        if (found == index) {
-            const ByteView body = heap.part(at + object_header, size);
-            return {body.data(), body.data() + body.size()};
-        }
-        require(found != 0 && size <= heap.size(), "a text that is not there");
+        const std::uint64_t index = heap.number(at, 2), size = heap.number(at + 8, 8);
+        if (index == 0 || size > heap.size()) break;  // what is free ends a collection
+        heap_places_.try_emplace(index, at);
         at += object_header + (size + 7) / 8 * 8;
     }
-    throw std::runtime_error("damaged structure: a text that is not there");
+    heap_address_ = collection;
+}
+
+std::string Hdf5Objects::heap_text(std::uint64_t collection, std::uint32_t index, std::uint64_t length) const
+{
+    if (collection != heap_address_) read_heap(collection);
+    const auto place = heap_places_.find(index);
+    require(place != heap_places_.end(), "a text that is not there");
+    const std::uint64_t at = place->second;
+    const ByteView body = ByteView(heap_).part(at + object_header, ByteView(heap_).number(at + 8, 8));
+    require(body.size() >= length, "a text that is shorter than it says");
+    return {body.data(), body.data() + length};
 }
 
 }  // namespace selvage

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,8 +58,10 @@ public:
     std::vector<unsigned char> block(std::uint64_t address, std::uint64_t count) const;
     /// Returns bytes of the file that belong to its structure.
     std::vector<unsigned char> structure(std::uint64_t address, std::uint64_t count) const;
-    /// Returns an object of a global heap, in which texts lie.
-    std::string heap_object(std::uint64_t collection, std::uint32_t index) const;
+    /// Returns the first bytes of an object of a global heap, in which texts lie.
+    std::string heap_text(std::uint64_t collection, std::uint32_t index, std::uint64_t length) const;
+    /// Whether the file, which may have grown, is so long.
+    bool holds(std::uint64_t bytes) const;
 
 private:
     struct Entry {
@@ -68,12 +71,14 @@ private:
     std::vector<Entry> entries(std::uint64_t group) const;
     void read_nodes(std::uint64_t address, int level, ByteView heap, std::vector<Entry>& entries) const;
     std::uint64_t find(const std::string& path, int links) const;
+    void read_heap(std::uint64_t collection) const;
 
     int descriptor_;
     mutable std::uint64_t size_ = 0, structure_read_ = 0;
     std::uint64_t root_ = no_address;
     mutable std::uint64_t heap_address_ = no_address;
     mutable std::vector<unsigned char> heap_;
+    mutable std::map<std::uint64_t, std::uint64_t> heap_places_;  ///< Of the objects in heap_, by their index.
 };
 
 }  // namespace selvage

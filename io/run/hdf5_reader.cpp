@@ -98,6 +98,13 @@ std::vector<int> filters_in(const ByteView& message)
     return filters;
 }
 
+// Returns the first message of a type, or null.
+const Hdf5Message* first_of(const std::vector<Hdf5Message>& messages, int type)
+{
+    const auto at = std::ranges::find(messages, type, &Hdf5Message::type);
+    return at == messages.end() ? nullptr : &*at;
+}
+
 template <class Value>
 Value value_at(const unsigned char* bytes, const Hdf5Reader::Number& number)
 {
@@ -178,16 +185,13 @@ Hdf5Reader::Dataset Hdf5Reader::open(const std::string& name, bool with_chunks) 
         Dataset dataset;
         dataset.name = name;
         const std::vector<Hdf5Message> all = messages(name);
-        const auto find = [&](int type) -> const Hdf5Message* {
-            const auto at = std::ranges::find(all, type, &Hdf5Message::type);
-            return at == all.end() ? nullptr : &*at;
-        };
-        const Hdf5Message *space = find(dataspace), *type = find(datatype), *layout = find(data_layout);
-        require(!find(external_files), "external storage: its data lie in another file");
+        const Hdf5Message *space = first_of(all, dataspace), *type = first_of(all, datatype),
+                          *layout = first_of(all, data_layout);
+        require(!first_of(all, external_files), "external storage: its data lie in another file");
         require(space && type && layout, "no data set");
         dataset.shape = shape_in(space->view());
         dataset.number = number_in(type->view());
-        if (const Hdf5Message* filters = find(filter_pipeline)) dataset.filters = filters_in(filters->view());
+        if (const Hdf5Message* filters = first_of(all, filter_pipeline)) dataset.filters = filters_in(filters->view());
         read_chunks(layout->view(), dataset, with_chunks);
         return dataset;
     });
@@ -204,8 +208,10 @@ void Hdf5Reader::read_chunks(const ByteView& layout, Dataset& dataset, bool with
         const std::uint64_t bytes = saturated_product(rows, dataset.row_bytes());
         dataset.chunk_rows = rows;
         const std::uint64_t address = layout.number(2, 8);
-        if (address != no_address && bytes > 0 && layout.number(10, 8) >= bytes)
+        if (address != no_address && bytes > 0 && layout.number(10, 8) >= bytes) {
             dataset.chunks.push_back({0, address, bytes, 0});
+            dataset.stored = bytes;
+        }
         return;
     }
     Shape chunk;
@@ -219,6 +225,8 @@ void Hdf5Reader::read_chunks(const ByteView& layout, Dataset& dataset, bool with
     if (const std::uint64_t tree = layout.number(3, 8); with_chunks && tree != no_address)
         read_chunk_nodes(tree, 256, dataset, chunk);
     std::ranges::sort(dataset.chunks, {}, &Chunk::first_row);
+    for (const Chunk& chunk : dataset.chunks) dataset.stored += chunk.bytes;
+    require(objects_.holds(dataset.stored), "damaged structure: chunks that overlap");
 }
 
 // Reads the chunks below a node; level 256: the root, of any level.
@@ -263,9 +271,7 @@ std::vector<unsigned char> Hdf5Reader::rows_of(const Dataset& dataset, std::uint
     const bool compressed = std::ranges::count(dataset.filters, int(deflate_filter)) > 0;
     const std::uint64_t row = dataset.row_bytes(), bytes = saturated_product(rows, row);
     if (bytes == 0) return {};
-    std::uint64_t stored = 0;
-    for (const Chunk& chunk : dataset.chunks) stored += chunk.bytes;
-    stored = std::min(stored, size());
+    const std::uint64_t stored = std::min(dataset.stored, size());
     const std::uint64_t whole = saturated_product(dataset.chunk_rows, row);
     const std::uint64_t of_stored = saturated_product(stored, compressed ? most_deflation : 1);
     const std::uint64_t all = saturated_product(most_expansion, size());
@@ -282,8 +288,8 @@ std::vector<unsigned char> Hdf5Reader::rows_of(const Dataset& dataset, std::uint
         require(chunk, "values that are not stored");
         require(chunk->skipped_filters == 0, "a chunk without some of its filters");
         const std::vector<unsigned char> piece =
-            unfiltered(objects_.block(chunk->address, chunk->bytes), dataset.filters, std::size_t(dataset.number.bytes),
-                       std::size_t(whole));
+            unfiltered(counted ? objects_.structure(chunk->address, chunk->bytes) : stored_bytes(dataset, *chunk),
+                       dataset.filters, std::size_t(dataset.number.bytes), std::size_t(whole));
         const std::uint64_t end = std::min(chunk->first_row + dataset.chunk_rows, first + rows);
         std::memcpy(values.data() + (at - first) * row, piece.data() + (at - chunk->first_row) * row, (end - at) * row);
         at = end;
@@ -375,17 +381,18 @@ Hdf5Reader::Attribute Hdf5Reader::unfiltered_dataset(const std::string& name) co
 {
     Attribute held;
     if (!exists(name)) return held;
-    for (const Hdf5Message& message : messages(name)) {
-        const ByteView view = message.view();
-        require(message.type != external_files, "external storage: its data lie in another file");
-        if (message.type == dataspace) held.shape = shape_in(view);
-        if (message.type == datatype) held.type.assign(view.data(), view.data() + view.size());
-        if (message.type != data_layout) continue;
-        constexpr int version = 3, contiguous = 1;
-        require(view.number(0, 1) == version && view.number(1, 1) == contiguous, "storage of another kind");
-        held.data = objects_.block(view.number(2, 8), view.number(10, 8));
-        held.found = true;
-    }
+    const std::vector<Hdf5Message> all = messages(name);
+    const Hdf5Message *space = first_of(all, dataspace), *type = first_of(all, datatype),
+                      *layout = first_of(all, data_layout);
+    require(!first_of(all, external_files), "external storage: its data lie in another file");
+    require(space && type && layout, "no data set");
+    constexpr int version = 3, contiguous = 1;
+    const ByteView view = layout->view();
+    require(view.number(0, 1) == version && view.number(1, 1) == contiguous, "storage of another kind");
+    held.shape = shape_in(space->view());
+    held.type = type->bytes;
+    held.data = objects_.structure(view.number(2, 8), view.number(10, 8));
+    held.found = true;
     return held;
 }
 
@@ -439,9 +446,8 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& object, const char
                 result.emplace_back();
                 continue;
             }
-            const std::string object_text = objects_.heap_object(collection, std::uint32_t(place.number(12, 4)));
-            require(object_text.size() >= length, "a text that is shorter than it says");
-            result.push_back(object_text.substr(0, std::min<std::size_t>(length, object_text.find('\0'))));
+            const std::string text = objects_.heap_text(collection, std::uint32_t(place.number(12, 4)), length);
+            result.push_back(text.substr(0, text.find('\0')));
         }
         return result;
     });

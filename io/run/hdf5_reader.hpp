@@ -71,6 +71,7 @@ public:
         std::uint64_t chunk_rows = 0;
         std::vector<int> filters;   ///< In the order in which they were applied.
         std::vector<Chunk> chunks;  ///< By their first rows.
+        std::uint64_t stored = 0;   ///< In all chunks [bytes].
 
         std::uint64_t row_bytes() const;
     };

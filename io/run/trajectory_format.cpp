@@ -42,7 +42,7 @@ void write_cells(Hdf5File& file, const std::string& group, const std::vector<Fac
     const std::vector<std::int64_t> connectivity = flatten_integers(faces);
     std::vector<std::int64_t> offsets(faces.size() + 1);
     for (std::size_t face = 0; face < offsets.size(); ++face) offsets[face] = 3 * std::int64_t(face);
-    const Hdf5Storage storage{.compressed = !faces.empty(), .growing = false, .chunk = {}, .checked = false};
+    const Hdf5Storage storage{.compressed = !faces.empty(), .growing = false, .chunk = {}};
     const std::array<std::int64_t, 1> cell_count{std::int64_t(faces.size())}, id_count{3 * cell_count[0]};
     file.make_group(group);
     file.write(group + "/NumberOfCells", H5T_STD_I64LE, {1}, cell_count);
@@ -78,7 +78,7 @@ void write_rest_corners(Hdf5File& file, const TrajectoryLayout& layout, const Hd
 
 void write_arrays(Hdf5File& file, const TrajectoryLayout& layout)
 {
-    const Hdf5Storage compressed{.compressed = true, .growing = false, .chunk = {}, .checked = false};
+    const Hdf5Storage compressed{.compressed = true, .growing = false, .chunk = {}};
     std::vector<double> coordinates, lengths;
     for (const Vec2& x : layout.panel_coordinates) coordinates.insert(coordinates.end(), {x.x(), x.y()});
     for (const auto& row : layout.rest_edge_lengths) lengths.insert(lengths.end(), row.begin(), row.end());
@@ -116,7 +116,7 @@ void make_column(Hdf5File& file, const FrameColumn& column)
     std::vector<hsize_t> shape{0}, chunk{column_chunk};
     if (column.width > 1) shape.push_back(hsize_t(column.width)), chunk.push_back(hsize_t(column.width));
     file.make_dataset(column.name, column.integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, shape,
-                      {.compressed = false, .growing = true, .chunk = chunk, .checked = false});
+                      {.compressed = false, .growing = true, .chunk = chunk});
 }
 
 void write_columns(Hdf5File& file)
@@ -135,9 +135,8 @@ void write_contents(const std::string& path, const TrajectoryLayout& layout)
     file.make_group("/VTKHDF");
     file.make_group("/selvage");
     write_attributes(file, layout);
-    file.make_dataset(
-        points, H5T_IEEE_F32LE, {0, 3},
-        {.compressed = true, .growing = true, .chunk = {hsize_t(layout.point_count), 3}, .checked = false});
+    file.make_dataset(points, H5T_IEEE_F32LE, {0, 3},
+                      {.compressed = true, .growing = true, .chunk = {hsize_t(layout.point_count), 3}});
     file.write("/VTKHDF/NumberOfPoints", H5T_STD_I64LE, {1}, point_count);
     for (const char* group : {"/VTKHDF/Vertices", "/VTKHDF/Lines", "/VTKHDF/Strips"}) write_cells(file, group, {});
     write_cells(file, "/VTKHDF/Polygons", layout.triangles);

@@ -2,6 +2,7 @@
 import os
 import resource
 import shutil
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -108,6 +109,35 @@ class Runs(unittest.TestCase):
         for name, (change, words) in FAULTS.items():
             with self.subTest(name):
                 self.refused(self.changed(change), words)
+
+    def test_chunks_cannot_lie_in_the_same_place(self):
+        """Else a small file could have the same bytes read and inflated for each of its frames."""
+        path = self.changed(lambda file: None)
+        with h5py.File(path) as file:
+            chunks = [file["VTKHDF/Points"].id.get_chunk_info(k) for k in range(3)]
+        with open(path, "rb") as file:
+            bytes_ = file.read()
+        for chunk in chunks:
+            key = struct.pack("<IIQ", chunk.size, 0, chunk.chunk_offset[0])
+            self.assertEqual(bytes_.count(key), 1)
+            bytes_ = bytes_.replace(key, struct.pack("<IIQ", len(bytes_) // 2, 0, chunk.chunk_offset[0]))
+        with open(path, "wb") as file:
+            file.write(bytes_)
+        self.refused(path, ["/VTKHDF/Points", "chunks that overlap"])
+
+    def test_a_newer_format_is_refused_with_its_cure(self):
+        path = self.path("newer.h5")
+        with h5py.File(path, "w", libver="latest") as file:
+            file["selvage/triangles"] = np.zeros((1, 3), "i4")
+        self.refused(path, ["newer format", "h5repack --low=0"])
+
+    def test_text_of_a_file_cannot_reach_the_terminal_as_control_characters(self):
+        def change(file):
+            file["selvage"].attrs["version"] = "1\x1b[2J\x9b31m"
+        result = call("info", self.changed(change))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([c for c in result.stdout if c != "\n" and (c < " " or "\x7f" <= c < "\xa0")], [])
+        self.assertIn("[2J", result.stdout)
 
     def test_rows_after_the_last_frame_are_not_read(self):
         path = self.changed(lambda file: file["selvage/kinetic_energy"].resize((10 ** 9,)))
