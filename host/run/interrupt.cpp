@@ -15,7 +15,7 @@ constexpr long same_request = 300;
 
 // A signal handler gets no argument of ours, so these have to live outside of any object.
 std::atomic<int> first_signal{0};
-std::atomic<long> first_time{0};  // [ms]; 0 while the first signal is being noted
+std::atomic<long> first_request{0};  // by SIGINT or SIGTERM [ms]; 0: none yet
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may not take a lock");
 static_assert(std::atomic<long>::is_always_lock_free, "a signal handler may not take a lock");
 
@@ -29,14 +29,14 @@ long milliseconds()
 void on_signal(int signal)
 {
     int none = 0;
-    if (first_signal.compare_exchange_strong(none, signal)) {
-        first_time = milliseconds();
-        return;
-    }
-    // The others repeat by themselves: at every write to a closed pipe, every second beyond the time limit.
-    const bool asks = signal == SIGINT || signal == SIGTERM;
-    const long since = first_time;
-    if (asks && since != 0 && milliseconds() - since > same_request) _exit(128 + signal);
+    first_signal.compare_exchange_strong(none, signal);
+    // The others repeat by themselves, at every write to a closed pipe, every second beyond the time limit; and who
+    // asks a run to end after one of them, as batch systems do, asks for the first time.
+    if (signal != SIGINT && signal != SIGTERM) return;
+    const long now = milliseconds();
+    long first = 0;
+    if (first_request.compare_exchange_strong(first, now)) return;
+    if (now - first > same_request) _exit(128 + signal);
 }
 
 }  // namespace

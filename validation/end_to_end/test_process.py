@@ -249,6 +249,16 @@ class Signals(Folder):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertGreater(self.summary(folder)["simulated_s"], reached)
 
+    def test_who_asks_a_run_to_end_after_its_time_limit_asks_for_the_first_time(self):
+        """Batch systems send SIGXCPU or SIGHUP, and SIGTERM later: only a second request ends a run at once."""
+        large = ["--set", "output.picture=true", "--set", "output.picture_width=16384", "--set",
+                 "output.picture_samples=64"]      # so that the run takes a while to end
+        process = self.start(*ENDLESS, *large)
+        process.send_signal(signal.SIGHUP)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGTERM)
+        self.stopped(process, signal.SIGHUP)
+
     def test_a_closed_pipe_saves_the_run(self):
         process = self.start(*ENDLESS)
         process.stderr.close()     # the next line of progress finds no reader
