@@ -90,18 +90,33 @@ double launch_sum(const Items& items, const Args& args)
     return sum_items(items, [args](int item) { return double(Kernel(item, &args)); });
 }
 
-/// Returns the largest `body(item)` over [0, count), or 0 without items.
+/// An item and its value.
+struct ItemValue {
+    double value = 0;
+    int item = -1;  ///< -1: none.
+};
+
+/// Returns the largest `body(item)` over [0, count) that exceeds `above`, and the first item that has it; no item and
+/// `above` if there is none. A value that is no number exceeds nothing.
+template <class Body>
+ItemValue largest_item(int count, double above, const Body& body)
+{
+    return tbb::parallel_reduce(
+        tbb::blocked_range<int>(0, count, items_per_task), ItemValue{above},
+        [body, mark = Trace::mark()](const auto& range, ItemValue most) {
+            const TaskSpan span(mark);
+            for (int item = range.begin(); item < range.end(); ++item)
+                if (const double value = double(body(item)); value > most.value) most = {value, item};
+            return most;
+        },
+        [](const ItemValue& earlier, const ItemValue& later) { return later.value > earlier.value ? later : earlier; });
+}
+
+/// Returns the largest `body(item)` over [0, count), or 0 if none is above that.
 template <class Body>
 double max_items(int count, const Body& body)
 {
-    return tbb::parallel_reduce(
-        tbb::blocked_range<int>(0, count, items_per_task), 0.0,
-        [body, mark = Trace::mark()](const auto& range, double most) {
-            const TaskSpan span(mark);
-            for (int item = range.begin(); item < range.end(); ++item) most = std::max(most, double(body(item)));
-            return most;
-        },
-        [](double a, double b) { return std::max(a, b); });
+    return largest_item(count, 0, body).value;
 }
 
 /// Returns the largest `Kernel(item, &args)` over [0, count); see max_items.

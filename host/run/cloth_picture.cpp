@@ -24,12 +24,12 @@ std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology)
 }
 
 Image draw_cloth(const Cloth& cloth, const std::vector<TriangleMesh>& bodies, const std::vector<Vec3>& positions,
-                 const Topology& topology, PictureOptions options)
+                 const std::vector<Face>& faces, const Topology& topology, PictureOptions options)
 {
     const std::vector<int> representative = representatives(topology);
     PictureCloth picture;
     picture.positions = positions;
-    picture.faces = shared_faces(cloth, topology);
+    picture.faces = faces;
     picture.face_panel = face_panels(cloth);
     for (const Seam& seam : cloth.seams)
         for (int k = seam.first_pair; k + 1 < seam.first_pair + seam.pair_count; ++k)

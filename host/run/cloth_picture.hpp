@@ -15,7 +15,8 @@ std::vector<int> representatives(const Topology& topology);
 std::vector<Face> shared_faces(const Cloth& cloth, const Topology& topology);
 
 /// Draws the cloth and its bodies, seams visible. A picture that options.stop has broken off has no pixels.
+/// @param faces  see shared_faces
 Image draw_cloth(const Cloth& cloth, const std::vector<TriangleMesh>& bodies, const std::vector<Vec3>& positions,
-                 const Topology& topology, PictureOptions options);
+                 const std::vector<Face>& faces, const Topology& topology, PictureOptions options);
 
 }  // namespace selvage

@@ -49,7 +49,7 @@ void DrapeRun::start_phase(RunStage stage, const std::vector<Vec3>& positions, c
 void DrapeRun::begin()
 {
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, folder_, options_.quiet, false);
-    if (!options_.notice.empty()) recorder_->say(options_.notice);
+    if (!options_.notice.empty()) recorder_->warn(options_.notice);
     progress_.counters.phases["assemble"] = elapsed();
     recorder_->warn(model_.findings);
     start_afresh(plan_.coarse_start ? RunStage::coarse : plan_.phases.front().stage);
@@ -73,7 +73,7 @@ bool DrapeRun::resume()
     const Checkpoint checkpoint = read_checkpoint(checkpoint_path());
     progress_ = load_progress(checkpoint, checkpoint_path(), identity_);
     if (progress_.ended && has_ended(options_.folder)) return false;
-    wall_before_ = progress_.wall_seconds;
+    wall_before_ = last_checkpoint_ = progress_.wall_seconds;
     start_phase(progress_.stage, model_.cloth_model.cloth.positions, {});
     load_phase(checkpoint, checkpoint_path(), *phase_, *integrator_);
     recorder_ = std::make_unique<RunRecorder>(settings_, model_, folder_, options_.quiet, true);
@@ -130,7 +130,7 @@ void DrapeRun::note_stretch(const StepEvent& event)
 {
     if (progress_.stage != RunStage::drape || event.dt == 0) return;
     FaceStretch& largest = progress_.counters.largest;
-    FaceStretch now = largest_stretch(model_.cloth_model.cloth, phase_->positions(), largest.stretch);
+    FaceStretch now = largest_stretch(model_.cloth_model.cloth, *phase_, largest.stretch);
     if (now.face < 0) return;
     now.time = event.time;
     largest = now;
@@ -289,14 +289,15 @@ RunOutcome DrapeRun::conclude(RunStatus status, std::string message)
     if (progress_.stage != RunStage::press) recorder_->write_frame(*phase_, event, elapsed(), true);
     recorder_->close_phase();
     const double bodies_time = progress_.stage == RunStage::sew ? 0 : time;  // they wait for the garment
-    bool complete = status == RunStatus::converged || status == RunStatus::finished;
-    if (!recorder_->show_last(bodies_time, *phase_) && complete) {
+    const LastState last = recorder_->last_state(bodies_time, *phase_);
+    bool complete = is_complete(status);
+    if (!recorder_->show_last(last, phase_->topology()) && complete) {
         complete = false;
         status = RunStatus::interrupted;
         message = "interrupted while the picture was drawn: the state is saved, --resume draws it";
     }
     const std::vector<Finding> at_end =
-        recorder_->conclude(status, bodies_time, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
+        recorder_->conclude(status, last, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
                             progress_.stability, progress_.coarse.stages, profile_, residual, elapsed(), message);
     if (complete && !settings_.output.keep_checkpoint) folder_.remove("checkpoint.h5");
     int code = complete ? 0 : 4;
@@ -382,7 +383,9 @@ RunOutcome run_drape(const Scene& scene, const RunOptions& options)
     RunOptions used = options;
     if (options.resume && !has_checkpoint(options.folder)) {
         used.resume = false;
-        used.notice = "no checkpoint in " + options.folder + " to go on from: the run starts from the beginning";
+        const bool replaces = std::filesystem::exists(folder.path() + "/run.h5");
+        used.notice = "no checkpoint in " + options.folder + " to go on from: the run starts from the beginning" +
+                      (replaces ? " and replaces the results that are there" : "");
     }
     try {
         RunOutcome outcome = DrapeRun(scene, used, folder).execute();

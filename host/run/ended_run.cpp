@@ -10,12 +10,7 @@
 namespace selvage {
 namespace {
 
-std::string status_in(const std::string& folder) { return read_status(folder + "/summary.json"); }
-
-bool is_complete(const std::string& status)
-{
-    return status == status_name(RunStatus::converged) || status == status_name(RunStatus::finished);
-}
+std::optional<RunStatus> status_in(const std::string& folder) { return read_status(folder + "/summary.json"); }
 
 }  // namespace
 
@@ -28,7 +23,8 @@ bool has_checkpoint(const std::string& folder)
 bool has_ended(const std::string& folder)
 {
     std::error_code error;
-    return is_complete(status_in(folder)) && std::filesystem::exists(folder + "/run.h5", error);
+    const std::optional<RunStatus> status = status_in(folder);
+    return status && is_complete(*status) && std::filesystem::exists(folder + "/run.h5", error);
 }
 
 bool is_done(const Scene& scene, const std::string& folder)
@@ -50,11 +46,11 @@ bool is_done(const Scene& scene, const std::string& folder)
 
 RunOutcome nothing_left(const std::string& folder)
 {
-    const std::string status = status_in(folder);
     RunOutcome outcome;
-    outcome.status = status == status_name(RunStatus::finished) ? RunStatus::finished : RunStatus::converged;
+    outcome.status = status_in(folder).value_or(RunStatus::finished);
     outcome.folder = folder;
-    outcome.message = folder + ": the run has come to its end (" + status + "): there is nothing left to do";
+    outcome.message =
+        folder + ": the run has come to its end (" + text_of(outcome.status) + "): there is nothing left to do";
     return outcome;
 }
 

@@ -5,20 +5,34 @@
 #include <map>
 
 #include "host/parallel/launch.hpp"
+#include "host/solver/state/planes.hpp"
 
 namespace selvage {
 namespace {
 
-// Square roots of the eigenvalues of the right Cauchy-Green tensor C = F^T F.
-std::array<double, 2> principal_stretches(const std::array<Vec2, 3>& rest, const Face& f, const std::vector<Vec3>& x)
+// Square roots of the eigenvalues of the right Cauchy-Green tensor C = F^T F, the larger one last.
+// @param a, b  from the first corner to the others
+std::array<double, 2> principal_stretches(const std::array<Vec2, 3>& rest, const Vec3& a, const Vec3& b)
 {
     const Vec2 p = rest[1] - rest[0], q = rest[2] - rest[0];
     const double area = p.x() * q.y() - p.y() * q.x();
-    const Vec3 a = x[f[1]] - x[f[0]], b = x[f[2]] - x[f[0]];
     const Vec3 weft = (q.y() * a - p.y() * b) / area, warp = (p.x() * b - q.x() * a) / area;
     const double uu = weft.squaredNorm(), vv = warp.squaredNorm(), uv = weft.dot(warp);
     const double mean = 0.5 * (uu + vv), radius = std::hypot(0.5 * (uu - vv), uv);
     return {std::sqrt(std::max(mean - radius, 0.0)), std::sqrt(mean + radius)};
+}
+
+// @param position_of  of a vertex [m]
+template <class PositionOf>
+FaceStretch largest_of(const Cloth& cloth, const PositionOf& position_of, double above)
+{
+    const std::vector<Vec2>& u = cloth.panel_coordinates;
+    const ItemValue largest = largest_item(int(cloth.faces.size()), above, [&](int face) {
+        const Face& f = cloth.faces[face];
+        const Vec3 x = position_of(f[0]);
+        return principal_stretches({u[f[0]], u[f[1]], u[f[2]]}, position_of(f[1]) - x, position_of(f[2]) - x)[1] - 1;
+    });
+    return {.stretch = largest.value, .face = largest.item};
 }
 
 // Edges of a panel that belong to one of its faces only.
@@ -45,11 +59,16 @@ StretchMeasure measure_stretch(const std::vector<std::array<Vec2, 3>>& rest_corn
     if (faces.empty()) return measure;
     std::vector<double> strains;
     strains.reserve(2 * faces.size());
-    for (std::size_t f = 0; f < faces.size(); ++f)
-        for (double stretch : principal_stretches(rest_corners[f], faces[f], positions)) strains.push_back(stretch - 1);
-    const auto [low, high] = std::minmax_element(strains.begin(), strains.end());
+    const std::vector<Vec3>& x = positions;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto [a, b, c] = faces[f];
+        for (double stretch : principal_stretches(rest_corners[f], x[b] - x[a], x[c] - x[a]))
+            strains.push_back(stretch - 1);
+    }
+    const auto low = std::ranges::min_element(strains), high = std::ranges::max_element(strains);
     measure.min = *low;
     measure.max = *high;
+    measure.max_face = int(high - strains.begin()) / 2;
     for (double& strain : strains) strain = std::abs(strain);
     const auto at = strains.begin() + std::ptrdiff_t(0.99 * double(strains.size() - 1));
     std::nth_element(strains.begin(), at, strains.end());
@@ -59,16 +78,17 @@ StretchMeasure measure_stretch(const std::vector<std::array<Vec2, 3>>& rest_corn
 
 FaceStretch largest_stretch(const Cloth& cloth, const std::vector<Vec3>& positions, double above)
 {
-    const std::vector<Vec2>& u = cloth.panel_coordinates;
-    const auto larger_of = [&](int face) {
-        const Face& f = cloth.faces[face];
-        return principal_stretches({u[f[0]], u[f[1]], u[f[2]]}, f, positions)[1] - 1;
-    };
-    FaceStretch largest{.stretch = max_items(int(cloth.faces.size()), larger_of)};
-    if (!(largest.stretch > above)) return largest;
-    largest.face = 0;
-    while (larger_of(largest.face) != largest.stretch) ++largest.face;
-    return largest;
+    return largest_of(
+        cloth, [&](int vertex) -> const Vec3& { return positions[vertex]; }, above);
+}
+
+FaceStretch largest_stretch(const Cloth& cloth, const Phase& phase, double above)
+{
+    const State& state = phase.state();
+    const ConstPlanes planes = vertex_planes(state.size, state.pos);
+    const std::vector<int>& particle_of = phase.topology().particle_of;
+    return largest_of(
+        cloth, [&](int vertex) -> Vec3 { return planes(particle_of[vertex]); }, above);
 }
 
 std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<Vec3>& x)

@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "host/model/cloth.hpp"
+#include "host/solver/stepping/phase.hpp"
 
 namespace selvage {
 
 /// Principal stretches minus one over all faces, in each face's own rest plane [1].
 struct StretchMeasure {
     double min = 0, max = 0;
-    double p99 = 0;  ///< Magnitude below which 99 % of the principal stretches lie.
+    double p99 = 0;     ///< Magnitude below which 99 % of the principal stretches lie.
+    int max_face = -1;  ///< Whose the largest is, the first of them; -1: without faces.
 };
 
 /// A principal stretch minus one [1], and whose it is.
@@ -32,9 +34,12 @@ struct PanelMeasure {
 StretchMeasure measure_stretch(const std::vector<std::array<Vec2, 3>>& rest_corners, const std::vector<Face>& faces,
                                const std::vector<Vec3>& positions);
 
-/// Finds the largest principal stretch of all faces, on all cores.
-/// @param above  a smaller one is not looked for, and the result has no face
+/// Finds the largest principal stretch of all faces and the first face that has it, on all cores.
+/// @param above  what it has to exceed: else the result has no face
 FaceStretch largest_stretch(const Cloth& cloth, const std::vector<Vec3>& positions, double above);
+
+/// The same of a cloth where its phase has it now.
+FaceStretch largest_stretch(const Cloth& cloth, const Phase& phase, double above);
 
 std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<Vec3>& positions);
 

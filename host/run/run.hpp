@@ -12,7 +12,7 @@ struct RunOptions {
     std::string folder = "out";  ///< Where the results go; made if missing.
     bool resume = false;         ///< Go on from the folder's checkpoint.
     bool quiet = false;          ///< No progress on stderr.
-    std::string notice = {};     ///< Said once the run begins.
+    std::string notice = {};     ///< Said once the run begins, also if it is quiet.
     /// Called after each checkpoint; false stops the run there. For tests of what a resumed run does.
     std::function<bool()> after_checkpoint = {};
     bool profile = false;  ///< Print what every phase cost, and leave trace.json.

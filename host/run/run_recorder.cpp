@@ -52,21 +52,12 @@ TrajectoryLayout trajectory_layout(const RunSettings& settings, const Cloth& clo
     return layout;
 }
 
-// Of the cloth in its last frame. @param so_far  the largest stretch of the drape before that
+// Of the cloth in its last state.
 void add_measures(RunSummary& s, const Cloth& cloth, const Phase& phase, const std::vector<Vec3>& positions,
-                  const BodyQuery* query, const FaceStretch& so_far)
+                  const BodyQuery* query)
 {
     const Energies energies = phase.system().energies();
     s.energy = {energies.membrane, energies.bending, energies.gravity, energies.contact, energies.kinetic};
-    FaceStretch largest = largest_stretch(cloth, positions, so_far.stretch);
-    largest.time = phase.system().clock().time;
-    if (largest.face < 0) largest = so_far;
-    if (largest.face >= 0) {
-        s.stretch.largest = largest.stretch;
-        s.stretch.largest_time = largest.time;
-        s.stretch.largest_triangle = largest.face;
-        s.stretch.largest_panel = panel_of_face(cloth, largest.face).name;
-    }
     if (query && !query->empty()) {
         const State& state = phase.state();
         const BodyGap gap = query->measure(state.pos.data(), state.size.vertex_stride, state.size.vertex_count);
@@ -77,6 +68,15 @@ void add_measures(RunSummary& s, const Cloth& cloth, const Phase& phase, const s
     if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
     for (const PanelMeasure& p : measure_panels(cloth, positions))
         s.panels.push_back({p.name, p.area_error, p.boundary_error});
+}
+
+void add_largest_stretch(RunSummary& s, const Cloth& cloth, const FaceStretch& largest)
+{
+    if (largest.face < 0) return;
+    s.stretch.largest = largest.stretch;
+    s.stretch.largest_time = largest.time;
+    s.stretch.largest_triangle = largest.face;
+    s.stretch.largest_panel = panel_of_face(cloth, largest.face).name;
 }
 
 }  // namespace
@@ -181,8 +181,7 @@ void RunRecorder::write_frame(Phase& phase, const StepEvent& event, double wall_
     next_frame_ = frame_time_after(scalars.time);
 }
 
-void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const Topology& topology,
-                               const std::vector<TriangleMesh>& bodies)
+void RunRecorder::write_meshes(const LastState& last, const Topology& topology)
 {
     const Cloth& cloth = model_.cloth_model.cloth;
     std::vector<std::vector<Face>> faces(cloth.panels.size());
@@ -201,18 +200,18 @@ void RunRecorder::write_meshes(const std::vector<Vec3>& positions, const Topolog
         const auto range = [&](const auto& all) {
             return std::span(all).subspan(panel.first_vertex, panel.vertex_count);
         };
-        objects.push_back({panel.name, range(positions), faces[p], range(cloth.panel_coordinates), range(repeated)});
+        objects.push_back(
+            {panel.name, range(last.positions), faces[p], range(cloth.panel_coordinates), range(repeated)});
     }
     folder_.write([&](const std::string& folder) { write_obj(folder + "/final.obj", objects); });
-    if (bodies.empty()) return;
+    if (last.bodies.empty()) return;
     objects.clear();
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        objects.push_back({model_.cloth_model.bodies[b].name, bodies[b].vertices, bodies[b].faces});
+    for (std::size_t b = 0; b < last.bodies.size(); ++b)
+        objects.push_back({model_.cloth_model.bodies[b].name, last.bodies[b].vertices, last.bodies[b].faces});
     folder_.write([&](const std::string& folder) { write_obj(folder + "/body.obj", objects); });
 }
 
-bool RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topology,
-                       const std::vector<TriangleMesh>& bodies)
+bool RunRecorder::draw(const LastState& last, const Topology& topology)
 {
     if (!settings_.output.picture) return true;
     const TraceScope scope("picture");
@@ -223,26 +222,25 @@ bool RunRecorder::draw(const std::vector<Vec3>& positions, const Topology& topol
         return interrupt_requested() &&
                (!came_before || std::chrono::steady_clock::now() - began > picture_of_interrupted);
     };
-    const Image image = draw_cloth(model_.cloth_model.cloth, bodies, positions, topology, options);
+    const Image image =
+        draw_cloth(model_.cloth_model.cloth, last.bodies, last.positions, last.faces, topology, options);
     if (image.width == 0) return false;
     const TraceScope encoding("opencv");
     folder_.write([&](const std::string& folder) { write_png(folder + "/preview.png", image); });
     return true;
 }
 
-std::vector<TriangleMesh> RunRecorder::bodies_at(double time) const
+LastState RunRecorder::last_state(double bodies_time, const Phase& phase) const
 {
-    std::vector<TriangleMesh> bodies;
-    for (const Body& body : model_.cloth_model.bodies) bodies.push_back(body_mesh_at(body, time));
-    return bodies;
+    LastState last{phase.positions(), shared_faces(model_.cloth_model.cloth, phase.topology()), {}};
+    for (const Body& body : model_.cloth_model.bodies) last.bodies.push_back(body_mesh_at(body, bodies_time));
+    return last;
 }
 
-bool RunRecorder::show_last(double time, const Phase& phase)
+bool RunRecorder::show_last(const LastState& last, const Topology& topology)
 {
-    const std::vector<Vec3> positions = phase.positions();
-    const std::vector<TriangleMesh> bodies = bodies_at(time);
-    write_meshes(positions, phase.topology(), bodies);
-    return draw(positions, phase.topology(), bodies);
+    write_meshes(last, topology);
+    return draw(last, topology);
 }
 
 void RunRecorder::warn(const std::vector<Finding>& findings)
@@ -252,31 +250,27 @@ void RunRecorder::warn(const std::vector<Finding>& findings)
 }
 
 // Of the last frame as it is written, where the files allow it to be looked at again.
-EndCrossings RunRecorder::find_crossings(const std::vector<Vec3>& positions, const Topology& topology,
-                                         const std::vector<TriangleMesh>& bodies) const
+EndCrossings RunRecorder::find_crossings(const LastState& last) const
 {
     const TraceScope scope("find_crossings");
     const double spacing = grid_spacing(settings_.output.precision);
     EndCrossings crossings;
-    for (const Vec3& x : positions) crossings.positions.push_back(written_position(x, spacing).cast<double>());
+    for (const Vec3& x : last.positions) crossings.positions.push_back(written_position(x, spacing).cast<double>());
     const auto is_finite = [](const Vec3& x) { return x.allFinite(); };
     if (!std::all_of(crossings.positions.begin(), crossings.positions.end(), is_finite)) return crossings;
     crossings.counted = true;
-    const std::vector<Face> faces = shared_faces(model_.cloth_model.cloth, topology);
-    crossings.self = self_intersections(crossings.positions, faces);
-    for (const TriangleMesh& body : bodies)
-        crossings.with_body.push_back(mutual_intersections(crossings.positions, faces, body));
+    crossings.self = self_intersections(crossings.positions, last.faces);
+    for (const TriangleMesh& body : last.bodies)
+        crossings.with_body.push_back(mutual_intersections(crossings.positions, last.faces, body));
     return crossings;
 }
 
-std::vector<Finding> RunRecorder::conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan,
+std::vector<Finding> RunRecorder::conclude(RunStatus status, const LastState& last, Phase& phase, const RunPlan& plan,
                                            const BodyQuery* query, const RunCounters& counters,
                                            const StabilityUse& stability, const std::vector<CoarseStage>& coarse_stages,
                                            const Profile& profile, double residual, double wall_seconds,
                                            const std::string& message)
 {
-    const std::vector<Vec3> positions = phase.positions();
-    const std::vector<TriangleMesh> bodies = bodies_at(time);
     const Cloth& cloth = model_.cloth_model.cloth;
     RunSummary s;
     s.status = status;
@@ -302,20 +296,22 @@ std::vector<Finding> RunRecorder::conclude(RunStatus status, double time, Phase&
         s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds,
                                   c.intersections, c.used});
     s.residual = residual;
-    add_measures(s, cloth, phase, positions, query, counters.largest);
-    const EndCrossings crossings = find_crossings(positions, phase.topology(), bodies);
+    add_measures(s, cloth, phase, last.positions, query);
+    FaceStretch largest = counters.largest;
+    const EndCrossings crossings = find_crossings(last);
     if (crossings.counted) {
-        const std::vector<Face> faces = shared_faces(cloth, phase.topology());
-        const StretchMeasure stretch = measure_stretch(rest_corners(cloth), faces, crossings.positions);
+        const StretchMeasure stretch = measure_stretch(rest_corners(cloth), last.faces, crossings.positions);
+        if (largest.face < 0 || stretch.max > largest.stretch)
+            largest = {stretch.max, stretch.max_face, phase.system().clock().time};
         s.stretch.min = stretch.min;
         s.stretch.max = stretch.max;
         s.stretch.p99 = stretch.p99;
         s.self_intersections = std::int64_t(crossings.self.size());
     }
-    if (crossings.counted && !bodies.empty()) s.body_intersections = crossings.count_with_bodies();
+    add_largest_stretch(s, cloth, largest);
+    if (crossings.counted && !last.bodies.empty()) s.body_intersections = crossings.count_with_bodies();
     std::vector<Finding> at_end = find_end_crossings(model_.cloth_model, crossings);
-    const bool complete = status == RunStatus::converged || status == RunStatus::finished;
-    if (complete) append_findings(at_end, find_lost_garment(model_.cloth_model, phase, positions));
+    if (is_complete(status)) append_findings(at_end, find_lost_garment(model_.cloth_model, phase, last.positions));
     warn(at_end);
     std::vector<Finding> told = model_.findings;
     append_findings(told, at_end);

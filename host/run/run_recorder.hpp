@@ -37,6 +37,13 @@ struct FrameProgress {
     bool relaxed = false;  ///< By static iterations, which take no simulated time.
 };
 
+/// The end of a run, as its pictures and measures look at it.
+struct LastState {
+    std::vector<Vec3> positions;  ///< Of the cloth [m].
+    std::vector<Face> faces;      ///< See shared_faces.
+    std::vector<TriangleMesh> bodies;
+};
+
 /// Writes what a run leaves in its folder.
 class RunRecorder {
 public:
@@ -56,6 +63,8 @@ public:
     void report(RunStage stage, const StepEvent& event, int steps);
     /// Writes a line of text for the user.
     void say(const std::string& text) { progress_->message(text); }
+    /// The same for what must be known, also if the run is quiet.
+    void warn(const std::string& text) { progress_->warning(text); }
     /// Writes what was found as warnings, also if the run is quiet; notes are left out.
     void warn(const std::vector<Finding>& findings);
     /// Writes a frame if one is due at this time, or if `force` and the cloth has moved since the last one.
@@ -64,14 +73,15 @@ public:
     void set_frame_progress(const FrameProgress& progress) { since_frame_ = progress; }
     int frame_count() const { return trajectory_ ? trajectory_->frame_count() : 0; }
 
+    /// Returns where cloth and bodies are.
+    /// @param bodies_time  at which the bodies are shown [s]
+    LastState last_state(double bodies_time, const Phase& phase) const;
     /// Writes final.obj, body.obj and preview.png.
-    /// @param time  at which the bodies are shown [s]
     /// @returns false if a signal has broken the picture off
-    bool show_last(double time, const Phase& phase);
+    bool show_last(const LastState& last, const Topology& topology);
     /// Writes summary.json, the last file of a run.
-    /// @param time  of the bodies [s]
     /// @returns what is wrong with the end of the run; the user has been warned of it
-    std::vector<Finding> conclude(RunStatus status, double time, Phase& phase, const RunPlan& plan,
+    std::vector<Finding> conclude(RunStatus status, const LastState& last, Phase& phase, const RunPlan& plan,
                                   const BodyQuery* query, const RunCounters& counters, const StabilityUse& stability,
                                   const std::vector<CoarseStage>& coarse_stages, const Profile& profile,
                                   double residual, double wall_seconds, const std::string& message);
@@ -80,12 +90,9 @@ private:
     double frame_time_after(double time) const;
     std::string trajectory_path();
     void follow_folder();
-    void write_meshes(const std::vector<Vec3>& positions, const Topology& topology,
-                      const std::vector<TriangleMesh>& bodies);
-    EndCrossings find_crossings(const std::vector<Vec3>& positions, const Topology& topology,
-                                const std::vector<TriangleMesh>& bodies) const;
-    std::vector<TriangleMesh> bodies_at(double time) const;
-    bool draw(const std::vector<Vec3>& positions, const Topology& topology, const std::vector<TriangleMesh>& bodies);
+    void write_meshes(const LastState& last, const Topology& topology);
+    EndCrossings find_crossings(const LastState& last) const;
+    bool draw(const LastState& last, const Topology& topology);
 
     const RunSettings& settings_;
     const SceneModel& model_;

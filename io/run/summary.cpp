@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include <fstream>
-
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.hpp"
+#include "io/errors.hpp"
+#include "io/file_text.hpp"
 
 namespace selvage {
 namespace {
@@ -91,35 +91,20 @@ void add_state(Json& json, const RunSummary& summary)
 
 }  // namespace
 
-std::string status_name(RunStatus status)
-{
-    switch (status) {
-        case RunStatus::converged:
-            return "converged";
-        case RunStatus::finished:
-            return "finished";
-        case RunStatus::time_limit:
-            return "time_limit";
-        case RunStatus::diverged:
-            return "diverged";
-        case RunStatus::interrupted:
-            return "interrupted";
-    }
-    return "";
-}
-
-std::string read_status(const std::string& path)
-{
-    std::ifstream file(path);
-    const Json json = Json::parse(file, nullptr, false);
+std::optional<RunStatus> read_status(const std::string& path)
+try {
+    const Json json = Json::parse(read_file_text(path, "a summary"), nullptr, false);
     const auto status = json.is_object() ? json.find("status") : json.end();
-    return json.is_object() && status != json.end() && status->is_string() ? status->get<std::string>() : std::string();
+    if (!json.is_object() || status == json.end() || !status->is_string()) return std::nullopt;
+    return find_word<RunStatus>(status->get<std::string>());
+} catch (const InputError&) {
+    return std::nullopt;
 }
 
 std::string summary_json(const RunSummary& summary)
 {
     Json json;
-    json["status"] = status_name(summary.status);
+    json["status"] = word_of(summary.status);
     json["message"] = summary.message;
     json["scene"] = summary.scene;
     json["version"] = summary.version;

@@ -1,20 +1,24 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/words.hpp"
+
 namespace selvage {
 
 /// How a run ended.
-enum class RunStatus { converged, finished, time_limit, diverged, interrupted };
+#define RUN_STATUSES(WORD) WORD(converged) WORD(finished) WORD(time_limit) WORD(diverged) WORD(interrupted)
+WORD_ENUM(RunStatus, RUN_STATUSES)
 
-/// Returns the word for a status in summary.json, such as `time_limit`.
-std::string status_name(RunStatus status);
+/// Whether the run came to its end: at rest, or at the time that it was asked for.
+constexpr bool is_complete(RunStatus status) { return status == RunStatus::converged || status == RunStatus::finished; }
 
-/// Returns that word from a summary.json; empty if there is no such file, or it is none.
-std::string read_status(const std::string& path);
+/// Returns the status that a summary.json tells, or nothing if there is no such file, or it is none.
+std::optional<RunStatus> read_status(const std::string& path);
 
 /// The use of one kernel over a whole run.
 struct KernelUse {

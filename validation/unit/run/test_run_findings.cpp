@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "host/run/measure.hpp"
 #include "host/run/run_findings.hpp"
@@ -96,4 +97,7 @@ TEST_CASE("the largest stretch is found with its face, and only above a limit")
     const Face& face = cloth.faces[std::size_t(largest.face)];
     CHECK(std::count(face.begin(), face.end(), int(x.size()) - 1) == 1);
     CHECK(largest_stretch(cloth, x, largest.stretch).face == -1);
+    CHECK(whole.max_face >= 0);
+    x.assign(x.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    CHECK(largest_stretch(cloth, x, 0).face == -1);
 }
