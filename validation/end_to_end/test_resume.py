@@ -111,10 +111,19 @@ class Interrupted(Folder):
         self.assertTrue(os.path.exists(self.path("checkpoint.h5")))
         self.check_committed_frames(self.folder)
 
-    def check_resumed(self, scene):
-        before = summary(self.folder)
+    def resume(self, scene):
+        """Goes on from the checkpoint: where there is none, a run says that it starts from the beginning."""
+        with open(self.path("progress.jsonl")) as file:
+            before = len(file.readlines())
         result = run(self.folder, scene, "--resume")
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("from the beginning", result.stderr)
+        with open(self.path("progress.jsonl")) as file:
+            self.assertGreater(len(file.readlines()), before)
+
+    def check_resumed(self, scene):
+        before = summary(self.folder)
+        self.resume(scene)
         after = summary(self.folder)
         self.assertIn(after["status"], ["converged", "finished"])
         self.assertGreater(after["simulated_s"], before["simulated_s"])
@@ -157,8 +166,7 @@ class Interrupted(Folder):
         scene = ["builtin:hanging", "--set", "sheet.resolution=41", "--set", "solver.until=0.6",
                  "--set", "output.precision=lossless", *more]
         self.interrupt(scene, signal.SIGINT, self.progressed("drape", 5))
-        result = run(self.folder, scene, "--resume")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.resume(scene)
         result = run(self.path("reference"), scene)
         self.assertEqual(result.returncode, 0, result.stderr)
         np.testing.assert_array_equal(last_positions(self.folder), last_positions(self.path("reference")))
@@ -187,8 +195,7 @@ solver = {until = "equilibrium"}
             names = []
             file.visit(names.append)
         self.assertTrue(any(name.endswith("is_awake") for name in names), names)
-        result = run(self.folder, scene, "--resume")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.resume(scene)
         result = run(self.path("reference"), scene)
         self.assertEqual(result.returncode, 0, result.stderr)
         np.testing.assert_array_equal(last_positions(self.folder), last_positions(self.path("reference")))
@@ -202,8 +209,7 @@ solver = {until = "equilibrium"}
         self.assertEqual(result.returncode, 4, result.stderr)
         self.assertEqual(summary(self.folder)["status"], "time_limit")
         self.assertTrue(os.path.exists(self.path("checkpoint.h5")))
-        result = run(self.folder, SHEET, "--resume")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.resume(SHEET)
         self.assertEqual(summary(self.folder)["status"], "finished")
 
     def test_a_checkpoint_of_another_scene_is_refused(self):
@@ -252,7 +258,7 @@ solver = {{until = 0.2}}
     def test_a_frame_at_the_time_of_an_interruption_is_left_out_again(self):
         scene = [*SHEET, "--set", "solver.frame_rate=7"]
         self.interrupt(scene, signal.SIGTERM, self.progressed("drape", 10))
-        self.assertEqual(run(self.folder, scene, "--resume").returncode, 0)
+        self.resume(scene)
         times, _ = frames(self.folder)
         np.testing.assert_allclose(times, np.arange(8) / 7, atol=1e-12)
 
@@ -282,11 +288,21 @@ class WithoutCheckpoint(Folder):
         self.assertEqual(self.contents(), before)
 
     def test_a_run_that_never_started_starts_and_says_so(self):
-        arguments = [word for word in command(self.path("out"), SHEET, "--resume") if word != "--quiet"]
-        result = subprocess.run(arguments, capture_output=True, text=True, timeout=120)
+        for quiet in [[], ["--quiet"]]:
+            with self.subTest(quiet), tempfile.TemporaryDirectory() as folder:
+                arguments = [word for word in command(folder, SHEET, "--resume") if word != "--quiet"] + quiet
+                result = subprocess.run(arguments, capture_output=True, text=True, timeout=120)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn("starts from the beginning", result.stderr)
+                self.assertNotIn("replaces", result.stderr)
+                self.assertEqual(summary(folder)["status"], "finished")
+
+    def test_a_lost_checkpoint_is_said_to_cost_the_results(self):
+        self.assertEqual(run(self.folder, SHEET, "--set", "solver.max_wall=0.1").returncode, 4)
+        os.remove(self.path("checkpoint.h5"))
+        result = run(self.folder, SHEET, "--resume")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("starts from the beginning", result.stderr)
-        self.assertEqual(summary(self.path("out"))["status"], "finished")
+        self.assertIn("replaces the results", result.stderr)
 
 
 if __name__ == "__main__":

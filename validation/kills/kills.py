@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Kills runs with SIGKILL at random moments, resumes them, and kills the resumed runs again.
 
-After each kill every frame that run.h5 and sewing.h5 hold must be readable by h5py and equal, bit for bit, to that of a
-run which nobody has killed; at the end all frames and all of summary.json but what measures the machine must be equal.
+A run that leaves a checkpoint must go on from it. After each kill every frame that run.h5 and sewing.h5 hold must be
+readable by h5py and equal, bit for bit, to that of a run which nobody has killed; at the end all frames and all of
+summary.json but what measures the machine must be equal.
 
     python3 -B validation/kills/kills.py --kills 100 --seed 1
 
@@ -128,26 +129,35 @@ class Scene:
 
     def start_and_kill(self, folder, wait):
         """Returns whether the run was killed before it had ended."""
-        self.resumed += os.path.exists(os.path.join(folder, "checkpoint.h5"))
+        checkpoint = os.path.exists(os.path.join(folder, "checkpoint.h5"))
         process = subprocess.Popen(command(self.arguments, folder, self.threads, "--resume"),
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         try:
             _, errors = process.communicate(timeout=wait)
         except subprocess.TimeoutExpired:
             process.kill()
-            process.communicate()
+            _, errors = process.communicate()
+            self.note_start(checkpoint, errors)
             self.kills += 1
             return True
+        self.note_start(checkpoint, errors)
         if process.returncode != self.code:
             self.faults.append(f"exit code {process.returncode}: {errors}")
         return False
 
+    def note_start(self, checkpoint, errors):
+        if checkpoint and "from the beginning" in errors:
+            self.faults.append("a run that did not go on from its checkpoint")
+        self.resumed += checkpoint
+
     def finish(self, folder):
+        checkpoint = os.path.exists(os.path.join(folder, "checkpoint.h5"))
         result = subprocess.run(command(self.arguments, folder, self.threads, "--resume"), capture_output=True,
                                 text=True)
         if result.returncode != self.code:
             self.faults.append(f"exit code {result.returncode}: {result.stderr}")
             return
+        self.note_start(checkpoint, result.stderr)
         self.check(folder, True)
         ours, theirs = summary(folder), summary(self.whole)
         self.faults += [f"summary: {key}" for key in theirs if ours.get(key) != theirs[key]]
@@ -164,15 +174,18 @@ def main():
     scenes = SMALL if arguments.small else SCENES
     names = arguments.scenes or list(scenes)
     moments = random.Random(arguments.seed)
-    faults = 0
+    faults, resumed = 0, 0
     for k, name in enumerate(names):
         share = arguments.kills * (k + 1) // len(names) - arguments.kills * k // len(names)
         with tempfile.TemporaryDirectory() as root:
             scene = Scene(name, scenes[name], root, arguments.threads)
             scene.kill_runs(share, moments)
-        print(f"{name}: {scene.kills} kills within {scene.duration:.1f} s each, {scene.resumed} of resumed runs, "
-              f"{len(scene.faults)} faults {sorted(set(scene.faults))}", flush=True)
+        print(f"{name}: {scene.kills} kills within {scene.duration:.1f} s each, {scene.resumed} starts from a "
+              f"checkpoint, {len(scene.faults)} faults {sorted(set(scene.faults))}", flush=True)
         faults += len(scene.faults)
+        resumed += scene.resumed
+    if arguments.kills > 0 and resumed == 0:
+        sys.exit("no run went on from a checkpoint: nothing has been shown")
     sys.exit(faults > 0)
 
 

@@ -123,6 +123,7 @@ void check_resumed_runs(const std::string& file, const std::vector<std::string>&
             return whole || at < k + ahead;
         };
         const RunOutcome end = run_drape(scene, part);
+        CHECK(at >= std::min(whole ? int(steps.size()) : k + ahead, int(steps.size()) - 1));
         if (!whole) continue;
         CHECK(end.status == outcome.status);
         check_equal_frames(part.folder + "/run.h5", options.folder + "/run.h5");
@@ -180,4 +181,26 @@ TEST_CASE("so does a garment while it is sewn, pressed and draped")
 TEST_CASE("so does a sheet that is draped on coarser meshes first")
 {
     check_resumed_runs("builtin:hanging", {"sheet.resolution=33"}, 2);
+}
+
+TEST_CASE("a run that goes on waits for its next checkpoint as long as one that was left alone")
+{
+    const ScratchFolder scratch;
+    const std::string file = scratch.write("sheets.toml", falling_sheets);
+    int checkpoints = 0;
+    RunOptions options{.folder = scratch.path("out"), .quiet = true};
+    options.after_checkpoint = [&] { return ++checkpoints < 3; };
+    run_drape(scene_of(file, {"solver.until=0.3"}), options);
+    REQUIRE(checkpoints >= 3);
+    const std::string path = options.folder + "/checkpoint.h5";
+    Checkpoint late = read_checkpoint(path);
+    late.reals.at("wall_seconds") = {7000};
+    write_checkpoint(path, late);
+    checkpoints = 0;
+    options.resume = true;
+    options.after_checkpoint = [&] { return ++checkpoints > 0; };
+    Scene scene = scene_of(file, {"solver.until=0.3"});
+    scene.output.checkpoint_interval = 3600;
+    CHECK(run_drape(scene, options).status == RunStatus::finished);
+    CHECK(checkpoints == 1);  // at the end
 }
