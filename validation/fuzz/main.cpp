@@ -1,8 +1,10 @@
 // Feeds changed inputs to every reader of files: selvage_fuzz [TARGET...] [--executions N] [--seconds S] [--seed N]
 // [--verbose]. The same seed gives the same inputs. A fault is any end other than a return or InputError, a leak (under
-// the address sanitiser), and more than 5 s or 1 GB; its input is kept. The exit code is 1 if there was one.
+// the address sanitiser), and more than 5 s or 1 GB; what hangs is killed after 20 s. The input is kept. The exit code
+// is 1 if there was one.
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -24,6 +26,7 @@ using namespace selvage;
 namespace {
 
 constexpr double most_seconds = 5;
+constexpr unsigned killed_after = 20;  // [s]
 constexpr long most_kilobytes = 1 << 20;
 constexpr long batch = 2000;  // executions of one process, so that a crash ends few of them
 
@@ -74,6 +77,7 @@ void execute(const FuzzTarget& target, const std::string& path, const Options& o
     std::ofstream(path, std::ios::binary) << input_of(target, options.seed, index);
     progress.current = index;
     const double begin = now();
+    alarm(killed_after);
     try {
         target.read(path);
     } catch (const InputError& fault) {
@@ -83,6 +87,7 @@ void execute(const FuzzTarget& target, const std::string& path, const Options& o
         std::snprintf(progress.fault, sizeof progress.fault, "threw: %s", fault.what());
         std::exit(2);
     }
+    alarm(0);
     const double seconds = now() - begin;
     if (seconds > progress.slowest_seconds) progress.slowest_seconds = seconds, progress.slowest = index;
     if (peak_kilobytes() > progress.most_kilobytes)
@@ -130,8 +135,9 @@ long run_batch(const FuzzTarget& target, const std::string& path, const Options&
         return end;
     }
     ++tally.faults;
-    const std::string signal = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "ended the process";
-    keep(target, options, progress.current, progress.fault[0] ? progress.fault : signal);
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    const std::string how = signal == SIGALRM ? "hung" : signal ? strsignal(signal) : "ended the process";
+    keep(target, options, progress.current, progress.fault[0] ? progress.fault : how);
     return progress.current + 1;
 }
 

@@ -12,6 +12,8 @@
 #include "io/scene/fabric_table.hpp"
 #include "io/scene/presets.hpp"
 #include "io/scene/read_scene.hpp"
+#include "validation/fuzz/resumed_run.hpp"
+#include "validation/measure/square_layout.hpp"
 
 namespace selvage {
 namespace {
@@ -128,22 +130,14 @@ std::function<void(const std::string&)> by_scene(const std::string& folder, cons
 
 std::vector<std::string> run_corpus(const std::string& folder)
 {
-    TrajectoryLayout layout;
-    layout.point_count = 5;
-    layout.triangles = {{0, 1, 2}, {1, 3, 2}};
-    layout.panel_coordinates = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 2}};
-    layout.panel = {0, 0, 1, 1, 1};
-    layout.rest_edge_lengths = {{1, 1.5, 1}, {1, 1, 1.5}};
-    layout.rest_corners = {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}, {Vec2(5, 0), Vec2(5, 1), Vec2(4, 1)}};
-    layout.triangle_panel = {0, 1};
-    layout.seam_pairs = {{0, 3}};
-    layout.panel_names = {"front", "back"};
+    TrajectoryLayout layout = square_layout(), many = layout;
     layout.scene_text = "[[sheet]]\nresolution = 5\n" + repeated("# a long scene\n", 300);
-    layout.version = "1.2.3";
+    for (int k = 0; k < 5000; ++k)
+        many.panel_names.push_back("panel " + std::to_string(k));  // more than attributes hold
     std::vector<std::string> corpus;
-    for (const int frames : {0, 2, 70}) {
-        const std::string path = folder + "/corpus.h5";
-        TrajectoryWriter writer = TrajectoryWriter::create(path, layout);
+    const std::string path = folder + "/corpus.h5";
+    for (const int frames : {0, 2, 70, 1}) {
+        TrajectoryWriter writer = TrajectoryWriter::create(path, frames == 1 ? many : layout);
         for (int frame = 0; frame < frames; ++frame)
             writer.write_frame(std::vector<Vec3>(5, Vec3(0.1 * frame, 1, 2)), {0.04 * frame, 1, 2, 0.5, 0.1, 3, 4});
         writer.finish();
@@ -213,6 +207,7 @@ std::vector<FuzzTarget> fuzz_targets(const std::string& folder)
     targets.push_back({"run", "input.h5", run_corpus(folder), true, read_run});
     targets.push_back({"checkpoint", "checkpoint.h5", checkpoint_corpus(folder), true,
                        [](const std::string& path) { read_checkpoint(path); }, seal_checkpoint});
+    targets.push_back({"resume", "checkpoint.h5", resumed_corpus(folder), true, go_on_from, seal_checkpoint});
     return targets;
 }
 

@@ -15,6 +15,7 @@
 #include "io/run/summary.hpp"
 #include "io/run/trajectory.hpp"
 #include "io/run/xdmf.hpp"
+#include "validation/measure/square_layout.hpp"
 #include "validation/unit/catch.hpp"
 
 using namespace selvage;
@@ -38,18 +39,8 @@ std::string text_of(const std::string& path)
 
 TrajectoryLayout square(PositionGrid grid)
 {
-    TrajectoryLayout layout;
-    layout.point_count = 5;  // The last point belongs to no triangle.
-    layout.triangles = {{0, 1, 2}, {1, 3, 2}};
-    layout.panel_coordinates = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 2}};
-    layout.panel = {0, 0, 1, 1, 1};
-    layout.rest_edge_lengths = {{1, 1.5, 1}, {1, 1, 1.5}};
-    layout.rest_corners = {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}, {Vec2(5, 0), Vec2(5, 1), Vec2(4, 1)}};
-    layout.triangle_panel = {0, 1};
-    layout.seam_pairs = {{0, 3}};
-    layout.panel_names = {"front", "back"};
+    TrajectoryLayout layout = square_layout();
     layout.scene_text = "[sheet]\n" + std::string(70000, '#');  // Longer than an HDF5 object header.
-    layout.version = "1.2.3";
     layout.grid = grid;
     return layout;
 }
