@@ -6,11 +6,12 @@ import re
 import resource
 import shutil
 import subprocess
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
+
+from scratch import Scratch
 
 PROGRAM = os.environ.get("SELVAGE", "build/selvage")
 SHORT = ["--quiet", "--threads", "1", "--set", "output.picture=false", "--set", "solver.until=0.02"]
@@ -111,20 +112,7 @@ def run(*arguments, seconds=60):
                           preexec_fn=limit_memory)
 
 
-class BadInput(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = holder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w") as file:
-            file.write(text)
-        return self.path(name)
-
+class BadInput(Scratch):
     def drape(self, scene, *more, seconds=60):
         shutil.rmtree(self.path("out"), ignore_errors=True)
         return run("drape", scene, "-o", self.path("out"), *SHORT, *more, seconds=seconds)

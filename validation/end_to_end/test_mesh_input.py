@@ -3,8 +3,9 @@ import json
 import math
 import os
 import subprocess
-import tempfile
 import unittest
+
+from scratch import Scratch
 
 PROGRAM = os.environ["SELVAGE"]
 QUIET = "[output]\npicture = false\n[solver]\nuntil = 0.05\n"
@@ -48,21 +49,7 @@ def ball(rings=8, sectors=12, radius=0.1, centre=(0, 0, 0), swap=None):
     return lines
 
 
-class MeshInput(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = holder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, lines):
-        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
-        with open(self.path(name), "w") as file:
-            file.write(lines if isinstance(lines, str) else "\n".join(lines) + "\n")
-        return self.path(name)
-
+class MeshInput(Scratch):
     def run_on(self, command, scene, *more):
         path = self.write("scene.toml", scene)
         return subprocess.run([PROGRAM, command, path, *more], capture_output=True, text=True, timeout=120)

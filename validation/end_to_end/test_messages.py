@@ -8,20 +8,14 @@ import unittest
 PROGRAM = os.environ.get("SELVAGE", "build/selvage")
 OUTPUT = "[output]\npicture = false\n"
 
-TWO_IN_ONE_PLACE = """
+SHEET = """
 [[sheet]]
 width = 0.3
 height = 0.3
 resolution = 9
 center = [0, 0, 0.3]
-[[sheet]]
-width = 0.3
-height = 0.3
-resolution = 9
-center = [0, 0, 0.3]
-[solver]
-until = 0.1
 """
+TWO_IN_ONE_PLACE = 2 * SHEET + "[solver]\nuntil = 0.1\n"
 ALL_HELD = """
 [[sheet]]
 width = 0.3
