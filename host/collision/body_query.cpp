@@ -227,8 +227,7 @@ void BodyQuery::Impl::add_mover(int index, const Body& body)
     mover_of.push_back(-1);
     if (!body.motion) return;
     mover_of.back() = int(movers.size());
-    Box box;
-    for (const Vec3& x : body.mesh.vertices) box.extend(x);
+    const Box box = box_of(body.mesh.vertices);
     // The box is enlarged, since the tessellation of a sphere or capsule lies inside the exact surface.
     movers.push_back({index,
                       body.motion,
@@ -462,6 +461,15 @@ std::vector<double> BodyQuery::signed_distances(const double* position, int stri
             distances[v] = signed_distance(vertex_at(position, stride, v), hints);
     });
     return distances;
+}
+
+std::vector<double> BodyQuery::signed_distances(const std::vector<Vec3>& points) const
+{
+    const std::size_t count = points.size();
+    std::vector<double> planes(3 * count);
+    for (std::size_t k = 0; k < count; ++k)
+        for (int c = 0; c < 3; ++c) planes[std::size_t(c) * count + k] = points[k][c];
+    return signed_distances(planes.data(), int(count), int(count));
 }
 
 BodyGap BodyQuery::measure(const double* position, int stride, int count) const

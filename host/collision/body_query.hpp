@@ -105,6 +105,8 @@ public:
 
     /// Returns the signed distance of every vertex to all triangles and closed forms, also outside the reach [m].
     std::vector<double> signed_distances(const double* position, int stride, int count) const;
+    /// The same for a list of points. A reach that holds whole bodies spares building their hierarchies anew.
+    std::vector<double> signed_distances(const std::vector<Vec3>& points) const;
     /// Sums up the signed distances of all vertices.
     BodyGap measure(const double* position, int stride, int count) const;
 

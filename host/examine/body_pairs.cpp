@@ -1,6 +1,7 @@
 #include "host/examine/body_pairs.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,13 +12,6 @@ namespace {
 
 constexpr double forever = 1e9;           // [s]; after all motion
 constexpr std::size_t first_tried = 100;  // vertices; if they lie inside, all are looked at
-
-Box box_of(const std::vector<Vec3>& points)
-{
-    Box box;
-    for (const Vec3& point : points) box.extend(point);
-    return box;
-}
 
 bool same_surface(const TriangleMesh& a, const TriangleMesh& b)
 {
@@ -30,21 +24,29 @@ bool is_twin(const Body& a, const Body& b)
     return !a.motion || same_surface(body_mesh_at(a, forever), body_mesh_at(b, forever));
 }
 
-bool holds(const BodyQuery& query, const std::vector<Vec3>& points, std::size_t stride)
+// A body that others may lie within.
+struct Surrounding {
+    const Body& body;
+    Box box;
+    std::optional<BodyQuery> query = {};  // made for the first body that may lie within
+};
+
+bool holds(const BodyQuery& query, const std::vector<Vec3>& points)
 {
-    for (std::size_t k = 0; k < points.size(); k += stride)
-        if (query.measure(points[k].data(), 1, 1).vertices_inside == 0) return false;
-    return true;
+    return std::ranges::all_of(query.signed_distances(points), [](double distance) { return distance < 0; });
 }
 
 // Whether a body lies wholly inside another, as both start.
-bool lies_within(const Body& inner, const Box& inside, const Body& outer, const Box& around)
+bool lies_within(const Body& inner, const Box& inside, Surrounding& outer)
 {
     if (inner.kind == Body::Kind::plane) return false;
-    if (outer.kind != Body::Kind::plane && !around.contains(inside)) return false;
-    const BodyQuery query({outer}, inside);
+    if (outer.body.kind != Body::Kind::plane && !outer.box.contains(inside)) return false;
+    if (!outer.query) outer.query.emplace(std::vector<Body>{outer.body}, outer.box);
     const std::vector<Vec3>& points = inner.mesh.vertices;
-    return holds(query, points, std::max<std::size_t>(points.size() / first_tried, 1)) && holds(query, points, 1);
+    std::vector<Vec3> some;
+    for (std::size_t k = 0; k < points.size(); k += std::max<std::size_t>(points.size() / first_tried, 1))
+        some.push_back(points[k]);
+    return holds(*outer.query, some) && holds(*outer.query, points);
 }
 
 }  // namespace
@@ -52,8 +54,8 @@ bool lies_within(const Body& inner, const Box& inside, const Body& outer, const 
 std::vector<Finding> examine_body_pairs(const std::vector<Body>& bodies, const std::vector<InputPlace>& places)
 {
     std::vector<Finding> findings;
-    std::vector<Box> boxes;
-    for (const Body& body : bodies) boxes.push_back(box_of(body.mesh.vertices));
+    std::vector<Surrounding> surroundings;
+    for (const Body& body : bodies) surroundings.push_back({body, box_of(body.mesh.vertices)});
     for (std::size_t b = 0; b < bodies.size(); ++b)
         for (std::size_t other = 0; other < bodies.size(); ++other) {
             const Body &body = bodies[b], &around = bodies[other];
@@ -65,7 +67,7 @@ std::vector<Finding> examine_body_pairs(const std::vector<Body>& bodies, const s
                 break;
             }
             if (other == b || body.motion || around.motion || is_twin(body, around)) continue;
-            if (!lies_within(body, boxes[b], around, boxes[other])) continue;
+            if (!lies_within(body, surroundings[b].box, surroundings[other])) continue;
             findings.push_back(
                 {"body", places[b],
                  fmt::format("the body `{}` lies within `{}`, where no cloth can touch it", body.name, around.name),

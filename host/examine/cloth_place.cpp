@@ -51,13 +51,6 @@ std::vector<Thing> things_of(const Cloth& cloth, const Scene& scene)
     return things;
 }
 
-Box box_of(const Body& body)
-{
-    Box box;
-    for (const Vec3& x : body.mesh.vertices) box.extend(x);
-    return box;
-}
-
 void find_odd_sizes(const std::vector<Thing>& things, std::vector<Finding>& findings)
 {
     for (const Thing& thing : things) {
@@ -114,7 +107,7 @@ void find_fallen(const std::vector<Thing>& things, const std::vector<Body>& bodi
     if (bodies.empty() || !scene.contact.body || gravity.isZero() || std::ranges::any_of(bodies, caught_anyway)) return;
     std::vector<Box> boxes;
     Box all;
-    for (const Body& body : bodies) all.extend(boxes.emplace_back(box_of(body)));
+    for (const Body& body : bodies) all.extend(boxes.emplace_back(box_of(body.mesh.vertices)));
     for (const Thing& thing : things) all.extend(thing.box);
     const Vec3 down = gravity.normalized(), way = all.diagonal().norm() * down;
     std::vector<char> stays(things.size());

@@ -46,15 +46,14 @@ std::vector<double> distances_to(const std::vector<Body>& bodies, const std::vec
         reaches_all = reaches_all || body.kind == Body::Kind::plane;
     }
     std::vector<int> near;
+    std::vector<Vec3> near_points;
     for (int v = 0; v < int(points.size()); ++v)
-        if (reaches_all || std::ranges::any_of(boxes, [&](const Box& box) { return box.contains(points[v]); }))
+        if (reaches_all || std::ranges::any_of(boxes, [&](const Box& box) { return box.contains(points[v]); })) {
             near.push_back(v);
+            near_points.push_back(points[v]);
+        }
     if (near.empty()) return distances;
-    std::vector<double> planes(3 * near.size());
-    for (std::size_t k = 0; k < near.size(); ++k)
-        for (int c = 0; c < 3; ++c) planes[c * near.size() + k] = points[near[k]][c];
-    const std::vector<double> found =
-        BodyQuery(bodies, all).signed_distances(planes.data(), int(near.size()), int(near.size()));
+    const std::vector<double> found = BodyQuery(bodies, all).signed_distances(near_points);
     for (std::size_t k = 0; k < near.size(); ++k) distances[near[k]] = found[k];
     return distances;
 }
@@ -128,9 +127,7 @@ std::vector<int> faces_in(const TriangleMesh& mesh, const Box& box)
 Finding find_crossed_body(const Cloth& cloth, const Body& body)
 {
     Finding finding{"body_intersection", {}, {}};
-    Box reach;
-    for (const Vec3& x : cloth.positions) reach.extend(x);
-    const std::vector<int> near = faces_in(body.mesh, reach);
+    const std::vector<int> near = faces_in(body.mesh, box_of(cloth.positions));
     if (near.empty()) return finding;
     TriangleMesh part{body.mesh.vertices, {}, {}};
     for (const int f : near) part.faces.push_back(body.mesh.faces[f]);

@@ -26,6 +26,13 @@ Between between(const std::vector<Entry>& entries, double time)
 
 }  // namespace
 
+Box box_of(const std::vector<Vec3>& points)
+{
+    Box box;
+    for (const Vec3& x : points) box.extend(x);
+    return box;
+}
+
 BodyMotion::BodyMotion(std::vector<MotionKey> keys, bool smooth, const Vec3& pivot)
     : keys_(std::move(keys)), smooth_(smooth), pivot_(pivot)
 {
@@ -34,7 +41,7 @@ BodyMotion::BodyMotion(std::vector<MotionKey> keys, bool smooth, const Vec3& piv
 void BodyMotion::add_pose(double time, std::vector<Vec3> vertices, bool smooth)
 {
     MeshPose pose{time, std::move(vertices), smooth, 0};
-    for (const Vec3& x : pose.vertices) reach_.extend(x);
+    reach_.extend(box_of(pose.vertices));
     if (!poses_.empty())
         for (std::size_t v = 0; v < pose.vertices.size(); ++v)
             pose.max_displacement =

@@ -10,6 +10,9 @@ namespace selvage {
 using Box = Eigen::AlignedBox3d;      ///< [m]
 using Placement = Eigen::Isometry3d;  ///< Maps a body from its place at time 0 to where it is.
 
+/// Returns the box around some points; empty without any.
+Box box_of(const std::vector<Vec3>& points);
+
 /// The rigid displacement of a body at one time.
 struct MotionKey {
     double time = 0;                  ///< [s]

@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "host/examine/body_mesh.hpp"
+#include "host/examine/body_pairs.hpp"
 #include "host/examine/file_mesh.hpp"
 #include "io/errors.hpp"
 #include "io/file_text.hpp"
@@ -234,11 +235,37 @@ double examination_time(int rings, int columns)
     return double(end - begin) / CLOCKS_PER_SEC;
 }
 
+// Processor time that it takes to find a round body within a larger one [s].
+double search_time(int rings, int columns)
+{
+    std::vector<Body> bodies(2);
+    bodies[0].mesh = bodies[1].mesh = round_body(rings, columns);
+    for (Vec3& x : bodies[0].mesh.vertices) x *= 0.5;
+    const std::clock_t begin = std::clock();
+    const std::vector<Finding> findings = examine_body_pairs(bodies, std::vector<InputPlace>(2));
+    const std::clock_t end = std::clock();
+    REQUIRE(findings.size() == 1);
+    CHECK_THAT(findings[0].text, contains_text("lies within"));
+    return double(end - begin) / CLOCKS_PER_SEC;
+}
+
+// Checks that four times the triangles take little more than four times as long; sixteen times would tell of every
+// triangle with every other. The first run finds the machine's memory and threads unprepared, and does not count.
+void check_growth(double (*time)(int rings, int columns))
+{
+    time(77, 78);
+    const double small = time(77, 78), large = time(154, 155);
+    CHECK(large < 9 * small);
+}
+
 }  // namespace
 
 TEST_CASE("reading and examining a body takes little more than in proportion to its triangles")
 {
-    // Four times the triangles; sixteen times the time would tell of every triangle with every other.
-    const double small = examination_time(77, 78), large = examination_time(154, 155);
-    CHECK(large < 9 * small);
+    check_growth(examination_time);
+}
+
+TEST_CASE("finding a body within another takes little more than in proportion to their triangles")
+{
+    check_growth(search_time);
 }
