@@ -4,15 +4,14 @@
 #include <vector>
 
 #include "io/errors.hpp"
+#include "io/words.hpp"
 
 namespace selvage {
 
-/// How much a finding matters.
-enum class Severity {
-    note,     ///< Worth knowing; nothing is wrong.
-    warning,  ///< A run can start, yet its result may not be what was meant.
-    fault,    ///< A run cannot end well.
-};
+/// How much a finding matters: worth knowing though nothing is wrong; a result that may not be what was meant; a run
+/// that cannot end well.
+#define SEVERITIES(WORD) WORD(note) WORD(warning) WORD(fault)
+WORD_ENUM(Severity, SEVERITIES)
 
 /// Something that was found while input was examined. Where a run cannot even start, an InputError is thrown instead.
 struct Finding {

@@ -246,7 +246,8 @@ bool RunRecorder::show_last(const LastState& last, const Topology& topology)
 void RunRecorder::warn(const std::vector<Finding>& findings)
 {
     for (const Finding& finding : findings)
-        if (finding.severity != Severity::note) progress_->warning("warning: " + describe(finding));
+        if (finding.severity != Severity::note)
+            progress_->warning(text_of(finding.severity) + ": " + describe(finding));
 }
 
 // Of the last frame as it is written, where the files allow it to be looked at again.

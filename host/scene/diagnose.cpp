@@ -42,10 +42,9 @@ Diagnosis diagnose_scene(const Scene& scene, const std::string& picture_path)
     nlohmann::ordered_json json{{"scene", scene.name}, {"clean", diagnosis.clean}};
     json["findings"] = nlohmann::json::array();
     for (const Finding& finding : findings) {
-        const bool is_note = finding.severity == Severity::note;
-        diagnosis.text += (is_note ? "note: " : "") + finding.kind + ": " + describe(finding) + "\n";
+        diagnosis.text += fmt::format("{}: {}: {}\n", word_of(finding.severity), finding.kind, describe(finding));
         json["findings"].push_back({{"kind", finding.kind},
-                                    {"severity", is_note ? "note" : "warning"},
+                                    {"severity", word_of(finding.severity)},
                                     {"text", describe(finding)},
                                     {"triangles", finding.faces}});
         if (!finding.pairs.empty()) json["findings"].back()["pairs"] = finding.pairs;

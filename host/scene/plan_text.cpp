@@ -76,7 +76,7 @@ std::string plan_text(const Scene& scene, const SceneModel& model, const RunPlan
     for (const MemoryPart& part : plan.memory)
         text += fmt::format("  {:<17} {:>9.1f} MiB\n", part.name, mebibytes(part.bytes));
     for (const Finding& finding : model.findings)
-        text += (finding.severity == Severity::note ? "note: " : "warning: ") + describe(finding) + "\n";
+        text += fmt::format("{}: {}\n", word_of(finding.severity), describe(finding));
     return text;
 }
 
