@@ -176,23 +176,10 @@ double contact_stiffness(const Scene& scene, const SceneModel& model)
     for (const auto& [name, fabric] : model.cloth_model.fabrics) heaviest = std::max(heaviest, fabric.areal_density);
     const double gravity = scene.solver.gravity.norm();
     double fastest = 0;
-    for (const Body& body : model.cloth_model.bodies) {
-        if (!body.motion) continue;
-        Box box;
-        for (const Vec3& x : body.mesh.vertices) box.extend(x);
-        fastest = std::max(fastest, body.motion->highest_speed(box));
-    }
+    for (const Body& body : model.cloth_model.bodies)
+        if (body.motion) fastest = std::max(fastest, body.motion->highest_speed(box_of(body.mesh.vertices)));
     // What a body drives before it has to gain its speed within the gap.
     return heaviest * std::max(100 * (gravity > 0 ? gravity : 9.81), fastest * fastest / scene.contact.gap);
-}
-
-// Where cloth begins to press on cloth: at its thickness, or at contact.gap if that is more, but well below the length
-// of an edge and below the height of any triangle, since neighbours in a panel must not press on each other.
-double gap_of_cloth(const Scene& scene, const SceneModel& model)
-{
-    double thickest = scene.contact.gap;
-    for (const auto& [name, fabric] : model.cloth_model.fabrics) thickest = std::max(thickest, fabric.thickness);
-    return std::min({thickest, 0.4 * model.edge_length, 0.8 * model.least_height});
 }
 
 std::string response_in_place(const Scene& scene) { return "contact.response is " + text_of(scene.contact.response); }

@@ -243,7 +243,8 @@ SceneModel build_scene_model(const Scene& scene)
     result.edge_length = typical_edge(result.cloth_model.cloth);
     find_limits(scene, result);
     append_findings(result.findings, examine_scene(scene, result.cloth_model, result.edge_length));
-    if (std::optional<Finding> meeting = find_meeting_pins(result.cloth_model.cloth, scene))
+    if (std::optional<Finding> meeting =
+            find_meeting_pins(result.cloth_model.cloth, scene, gap_of_cloth(scene, result)))
         result.findings.push_back(std::move(*meeting));
     if (!scene.has_garment()) {
         add_ripple(result.cloth_model.cloth);
@@ -251,6 +252,13 @@ SceneModel build_scene_model(const Scene& scene)
     }
     append_findings(result.findings, examine_start(result.cloth_model, scene));
     return result;
+}
+
+double gap_of_cloth(const Scene& scene, const SceneModel& model)
+{
+    double thickest = scene.contact.gap;
+    for (const auto& [name, fabric] : model.cloth_model.fabrics) thickest = std::max(thickest, fabric.thickness);
+    return std::min({thickest, 0.4 * model.edge_length, 0.8 * model.least_height});
 }
 
 SceneModel coarser_model(const SceneModel& model, std::size_t level)
@@ -276,13 +284,9 @@ double memory_limit(const Scene& scene)
 
 Box cloth_reach(const Cloth& cloth)
 {
-    Vec3 low = cloth.positions.front(), high = low;
-    for (const Vec3& x : cloth.positions) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    const Vec3 margin = Vec3::Constant(0.25 * (high - low).norm());
-    return {low - margin, high + margin};
+    const Box start = box_of(cloth.positions);
+    const Vec3 margin = Vec3::Constant(0.25 * start.sizes().norm());
+    return {start.min() - margin, start.max() + margin};
 }
 
 }  // namespace selvage

@@ -22,6 +22,11 @@ struct SceneModel {
 /// @throws InputError for any fault of a pattern, mesh, measure or resolution
 SceneModel build_scene_model(const Scene& scene);
 
+/// Returns where cloth begins to press on cloth [m]: at its thickness, or at contact.gap if that is more, but well
+/// below the length of an edge and below the height of any triangle, since neighbours in a panel must not press on each
+/// other.
+double gap_of_cloth(const Scene& scene, const SceneModel& model);
+
 /// Returns the same scene with its cloth as level `level` of cloth_model.coarser has it, and what is coarser than that.
 SceneModel coarser_model(const SceneModel& model, std::size_t level);
 

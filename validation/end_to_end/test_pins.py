@@ -80,6 +80,24 @@ class Pins(unittest.TestCase):
         apart = self.selvage("check", scene % (0.2, 0.2))
         self.assertNotIn("driven against", apart.stdout)
 
+    def test_a_meeting_within_whole_turns_is_told_of(self):
+        scene = ('[[sheet]]\nwidth = 0.4\nheight = 0.4\nresolution = 9\n[pins]\nsheet = "right_edge"\n'
+                 '[[pins.motion]]\ngroup = "left_edge"\naxis = [0, 0, 1]\npoint = [%g, 0, 0]\nturns = 4\n')
+        self.assertRegex(self.selvage("check", scene % 0).stdout, r"driven against each other: .* mm apart at 0\.06")
+        self.assertNotIn("driven against", self.selvage("check", scene % -0.2).stdout)
+
+    def test_edges_that_cross_between_their_ends_are_told_of(self):
+        sheets = ('[[sheet]]\nwidth = 0.4\nheight = 0.4\nresolution = 3\ncenter = [0, 0, 0.5]\n'
+                  '[[sheet]]\nname = "upper"\nwidth = 0.4\nheight = 0.4\nresolution = 3\n'
+                  'center = [-0.1, %g, 1]\n[[pins.hold]]\npanel = "sheet[0]"\ngroup = "left_edge"\n'
+                  '[[pins.motion]]\npanel = "upper"\ngroup = "top_edge"\nvelocity = [0, 0, -1]\n')
+        self.assertRegex(self.selvage("check", sheets % -0.1).stdout, r"driven against each other: .* mm apart at 0\.5")
+        self.assertNotIn("driven against", self.selvage("check", sheets % 0.1).stdout)
+
+    def test_held_vertices_that_come_near_with_room_for_the_cloth_are_not_told_of(self):
+        check = subprocess.run([PROGRAM, "check", "builtin:stress_fold"], capture_output=True, text=True)
+        self.assertEqual(check.returncode, 0, check.stdout)
+
 
 if __name__ == "__main__":
     unittest.main()

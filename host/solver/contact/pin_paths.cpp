@@ -30,7 +30,7 @@ PinPaths::PinPaths(const Cloth& cloth, const Topology& topology) : motions_(clot
         for (const int v : motions_[m].vertices) {
             const int particle = topology.particle_of[v];
             Pin& pin = pin_of.try_emplace(particle, Pin{particle, cloth.positions[v], {}}).first->second;
-            pin.motions.push_back(m);
+            if (pin.motions.empty() || pin.motions.back() != m) pin.motions.push_back(m);  // of vertices at a seam
         }
     }
     for (auto& [particle, pin] : pin_of) pins_.push_back(std::move(pin));
