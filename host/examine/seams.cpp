@@ -10,6 +10,8 @@
 #include <fmt/ranges.h>
 #include <Eigen/SVD>
 
+#include "host/garment/seam.hpp"
+
 namespace selvage {
 namespace {
 
@@ -28,8 +30,6 @@ struct SeamTuning {
     static constexpr double far_apart = 5;
     static constexpr std::size_t most_told = 8;  // findings of one kind; the rest is counted
 };
-
-std::string stitch_key(int stitch) { return "pattern.stitches[" + std::to_string(stitch) + "]"; }
 
 // A seam with its two sides as rows of paired vertices.
 struct SewnSides {
@@ -55,11 +55,6 @@ std::vector<SewnSides> sewn_sides(const Pattern& pattern, const Cloth& cloth)
         all.push_back(std::move(sides));
     }
     return all;
-}
-
-std::string side_name(const Pattern& pattern, const StitchSide& side)
-{
-    return pattern.panels[side.panel].name + ".edges[" + std::to_string(side.edge) + "]";
 }
 
 // Returns the correlation of the positions of paired points about their means: 1 if one side is a translated copy of

@@ -17,14 +17,14 @@ namespace {
 // stays.
 constexpr double most_gathered = 20;
 
+}  // namespace
+
 std::string stitch_key(int stitch) { return "pattern.stitches[" + std::to_string(stitch) + "]"; }
 
 std::string side_name(const Pattern& pattern, const StitchSide& side)
 {
     return pattern.panels[side.panel].name + ".edges[" + std::to_string(side.edge) + "]";
 }
-
-}  // namespace
 
 void check_stitches(const Pattern& pattern)
 {

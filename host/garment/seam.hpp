@@ -7,6 +7,12 @@
 
 namespace selvage {
 
+/// Returns the key path of a stitch, as `pattern.stitches[2]`.
+std::string stitch_key(int stitch);
+
+/// Returns the edge at one side of a stitch, as `front.edges[3]`.
+std::string side_name(const Pattern& pattern, const StitchSide& side);
+
 /// Checks that stitches name existing edges and that no edge is stitched twice.
 /// @throws InputError naming the edge and both stitches
 void check_stitches(const Pattern& pattern);

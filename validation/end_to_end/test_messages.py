@@ -164,7 +164,8 @@ class Messages(unittest.TestCase):
     def test_bodies_that_close_on_cloth_are_named(self):
         code, errors, _ = self.drape(PINCHED)
         self.assertEqual(code, 3)
-        self.assertRegex(errors, r"the bodies `(finger|thumb)` and `(finger|thumb)` close on the cloth between them")
+        self.assertRegex(errors,
+                         r"the bodies `(finger|thumb)` and `(?!\1)(finger|thumb)` close on the cloth between them")
         self.assertRegex(errors, r"where: vertex \d+ of `sheet\[0\]`")
         self.assertIn("contact.gap", errors)
 

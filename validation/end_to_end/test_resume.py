@@ -125,7 +125,6 @@ class Interrupted(Folder):
         before = summary(self.folder)
         self.resume(scene)
         after = summary(self.folder)
-        self.assertIn(after["status"], ["converged", "finished"])
         self.assertGreater(after["simulated_s"], before["simulated_s"])
         self.assertGreater(after["wall_s"], before["wall_s"])
         self.assertFalse(os.path.exists(self.path("checkpoint.h5")))
