@@ -34,7 +34,7 @@ void weld(const Scene& scene, int index, FileMesh& body, std::vector<Finding>& f
     if (!rule.any) return;
     const int before = int(body.mesh.vertices.size());
     JoinedSets sets{std::size_t(before)};
-    join_near(body.mesh.vertices, body.mesh.faces, rule.distance, place, sets);
+    join_near(body, rule.distance, place, sets);
     std::vector<int> now(before);
     int kept = 0;
     for (int v = 0; v < before; ++v) {
@@ -62,9 +62,9 @@ void close_holes(const Scene& scene, int index, FileMesh& body, std::vector<Find
     int closed = 0;
     double longest = 0;
     for (const Hole& hole : find_holes(body.mesh.vertices, rim_sides(sorted_sides(body.mesh.faces)))) {
-        if (hole.length * given.scale > given.close_holes || !close_hole(hole, body)) continue;
+        if (hole.length > given.close_holes || !close_hole(hole, body)) continue;
         ++closed;
-        longest = std::max(longest, hole.length * given.scale);
+        longest = std::max(longest, hole.length);
     }
     double added = 0;
     for (std::size_t f = before; f < body.mesh.faces.size(); ++f)
@@ -73,14 +73,14 @@ void close_holes(const Scene& scene, int index, FileMesh& body, std::vector<Find
     if (closed == 0)
         findings.push_back({"holes", place, "no hole of the body has a rim that short", {}, Severity::note});
     else
-        findings.push_back({"holes",
-                            place,
-                            fmt::format("{} of {} closed with {} of {:.3g} m^2 in all, the longest rim {:.3g} m",
-                                        counted(closed, "hole", "holes"), body.file(),
-                                        counted(int(body.mesh.faces.size() - before), "triangle", "triangles"),
-                                        added * given.scale * given.scale, longest),
-                            {},
-                            Severity::note});
+        findings.push_back(
+            {"holes",
+             place,
+             fmt::format("{} of {} closed with {} of {:.3g} m^2 in all, the longest rim {:.3g} m",
+                         counted(closed, "hole", "holes"), body.file(),
+                         counted(int(body.mesh.faces.size() - before), "triangle", "triangles"), added, longest),
+             {},
+             Severity::note});
 }
 
 // Says how holes can be closed: by joining vertices where that is their cause, else by triangles over them.
@@ -122,6 +122,18 @@ void refuse_holes(const FileMesh& body, const std::vector<FaceSide>& sides, cons
                                  holes.size() > BodyLimits::holes_named ? " and so on" : "",
                                  body.number(rim.front().from()), body.number(rim.front().to())),
                      "a closed surface; " + way_to_close(body, rim, holes, key));
+}
+
+void refuse_inner_walls(const FileMesh& body, const std::vector<FaceSide>& sides)
+{
+    for_each_edge(sides, [&](const FaceSide* first, const FaceSide* end) {
+        if ((end - first) % 2 == 0) return;
+        throw InputError(
+            body.at_face(first->face),
+            fmt::format("more than two faces meet at the edge from vertex {} to {}{}: {} do", body.number(first->low),
+                        body.number(first->high), at_text(body.mesh.vertices[first->low]), end - first),
+            "a closed surface without inner walls");
+    });
 }
 
 // The patches of faces that agree with their neighbours; the smaller one at the first edge is likely the turned one.
@@ -177,17 +189,24 @@ void examine_body(FileMesh& body, const std::string& key, std::vector<Finding>& 
 {
     const std::vector<FaceSide> sides = sorted_sides(body.mesh.faces);
     refuse_holes(body, sides, key);
+    refuse_inner_walls(body, sides);
     refuse_turned_faces(body, sides);
     const Pieces pieces = pieces_by_edges(sides, body.mesh.faces.size());
     face_outward(body, pieces, findings);
     find_body_crossings(body, pieces, findings);
 }
 
+ObjMesh read_body(const BodyScene& given, const std::string& file)
+{
+    ObjMesh mesh = read_obj(file, given.unit, given.up_axis);
+    for (Vec3& x : mesh.vertices) x *= given.scale;
+    return mesh;
+}
+
 FileMesh load_body(const Scene& scene, int index, const std::string& file, std::vector<Finding>& findings)
 {
-    const BodyScene& given = scene.bodies[index];
-    FileMesh body = cut_polygons(read_obj(file, given.unit, given.up_axis), findings);
-    examine_body_size(scene, index, file, given.scale * extent_of(body.mesh.vertices), findings);
+    FileMesh body = cut_polygons(read_body(scene.bodies[index], file), findings);
+    examine_body_size(scene, index, file, extent_of(body.mesh.vertices), findings);
     weld(scene, index, body, findings);
     close_holes(scene, index, body, findings);
     examine_body(body, fmt::format("body[{}]", index), findings);

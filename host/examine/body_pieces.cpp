@@ -129,9 +129,13 @@ void find_body_crossings(const FileMesh& body, const Pieces& pieces, std::vector
         const bool same = pieces.of_face[pair[0]] == pieces.of_face[pair[1]];
         if ((same ? own : mutual)++ == 0) (same ? first_own : first_mutual) = pair;
     }
+    const auto face_text = [&](int face) {
+        const int line = body.at_face(face).line;
+        return line > 0 ? fmt::format("the face at line {}", line) : std::string("one that closes a hole");
+    };
     const auto told = [&](const IntersectingPair& pair) {
-        return fmt::format("the faces at lines {} and {}{}", body.face_lines[pair[0]], body.face_lines[pair[1]],
-                           at_text(body.mesh.vertices[body.mesh.faces[pair[0]][0]]));
+        return face_text(pair[0]) + " and " + face_text(pair[1]) +
+               at_text(body.mesh.vertices[body.mesh.faces[pair[0]][0]]);
     };
     if (own > 0)
         findings.push_back({"body_self_intersection", body.at_face(first_own[0]),

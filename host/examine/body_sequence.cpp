@@ -19,8 +19,8 @@ namespace {
 // Between one pose and the next. Chosen by hand, far from what a body that moves does.
 struct PoseLimits {
     static constexpr double most_growth = 10;    // of the size, refused; and its inverse
-    static constexpr double much_growth = 2;     // told
-    static constexpr double edge_growth = 4;     // of an edge, against that of the whole; and its inverse
+    static constexpr double much_growth = 2;     // told; and its inverse
+    static constexpr double edge_growth = 4;     // of an edge, against that of the whole
     static constexpr double edges_beyond = 0.1;  // part of the edges with which the vertices count as permuted
     static constexpr double mean_growth = 3;     // of the edges in the middle: the same
     static constexpr double flat = 1e-3;         // of the volume
@@ -51,7 +51,9 @@ double turn_between(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
     Mat3 covariance = Mat3::Zero();
     for (std::size_t k = 0; k < from.size(); ++k) covariance += (to[k] - b) * (from[k] - a).transpose();
     const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Mat3 turn = svd.matrixU() * svd.matrixV().transpose();
+    // A body that is thin along an axis may be mirrored along it for less than it takes to turn; only turns count.
+    const double handed = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+    const Mat3 turn = svd.matrixU() * Vec3(1, 1, handed).asDiagonal() * svd.matrixV().transpose();
     return std::acos(std::clamp(0.5 * (turn.trace() - 1), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
@@ -196,8 +198,9 @@ void PoseLoader::note_crossings(const ObjMesh& pose, const std::vector<Vec3>& ve
 {
     FileMesh posed;
     posed.obj.path = pose.path;
+    posed.obj.polygon_lines = pose.polygon_lines;
     posed.mesh = {vertices, start_.mesh.faces, {}};
-    posed.face_lines = start_.face_lines;
+    posed.face_polygons = start_.face_polygons;
     std::vector<Finding> found;
     find_body_crossings(posed, pieces_, found);
     std::erase_if(found, [](const Finding& finding) { return finding.severity == Severity::note; });
@@ -207,19 +210,18 @@ void PoseLoader::note_crossings(const ObjMesh& pose, const std::vector<Vec3>& ve
 
 std::vector<Vec3> PoseLoader::load(const std::string& file)
 {
-    const BodyScene& given = scene_.bodies[index_];
-    const ObjMesh pose = read_obj(file, given.unit, given.up_axis);
+    const ObjMesh pose = read_body(scene_.bodies[index_], file);
     require_same_faces(pose);
     std::vector<Vec3> vertices;
     vertices.reserve(start_.vertex_source.size());
     for (const int source : start_.vertex_source) vertices.push_back(pose.vertices[source]);
     judge(pose, vertices);
     std::vector<Finding> known;  // the start has told of a size that is unusual
-    examine_body_size(scene_, index_, file, given.scale * extent_of(vertices), known);
+    examine_body_size(scene_, index_, file, extent_of(vertices), known);
     const double least = least_area(vertices);
     for (std::size_t f = 0; f < start_.mesh.faces.size(); ++f)
         if (!(area_of(vertices, start_.mesh.faces[f]) > least))
-            throw InputError({file, start_.face_lines[f], 0, {}}, "a face without area in this pose",
+            throw InputError({file, start_.line_of_face(pose, int(f)), 0, {}}, "a face without area in this pose",
                              "an area above 0 m^2");
     note_crossings(pose, vertices);
     last_file_ = file;

@@ -93,7 +93,7 @@ bool close_hole(const Hole& hole, FileMesh& body)
     }
     for (const auto& [a, b, c] : triangles) {
         body.mesh.faces.push_back({rim[a], rim[b], rim[c]});
-        body.face_lines.push_back(0);
+        body.face_polygons.push_back(-1);
     }
     if (!body.mesh.parts.empty()) body.mesh.parts.back().face_count += int(triangles.size());
     return true;

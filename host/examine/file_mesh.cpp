@@ -56,7 +56,7 @@ void cut_all(const ObjMesh& obj, FileMesh& result, std::vector<int>& first_trian
         if (!split_polygon(obj.vertices, polygon, triangles)) refuse_polygon(obj, p, true);
         for (const auto& [a, b, c] : triangles) {
             result.mesh.faces.push_back({polygon[a], polygon[b], polygon[c]});
-            result.face_lines.push_back(obj.polygon_lines[p]);
+            result.face_polygons.push_back(p);
             if (obj.corner_textures.empty()) continue;
             const int* textures = obj.corner_textures.data() + obj.polygon_starts[p];
             result.face_textures.push_back({textures[a], textures[b], textures[c]});
@@ -109,12 +109,9 @@ FileMesh cut_polygons(ObjMesh given, std::vector<Finding>& findings)
         result.mesh.parts.push_back({part.name, first, first_triangles[part.first_face + part.face_count] - first});
     }
     const double least = least_area(result.mesh.vertices);
-    for (int f = 0; f < int(result.mesh.faces.size()); ++f) {
-        if (area_of(result.mesh.vertices, result.mesh.faces[f]) > least) continue;
-        const int line = result.face_lines[f];
-        const auto p = std::find(obj.polygon_lines.begin(), obj.polygon_lines.end(), line);
-        refuse_polygon(obj, int(p - obj.polygon_lines.begin()), false);
-    }
+    for (std::size_t f = 0; f < result.mesh.faces.size(); ++f)
+        if (!(area_of(result.mesh.vertices, result.mesh.faces[f]) > least))
+            refuse_polygon(obj, result.face_polygons[f], false);
     return result;
 }
 

@@ -13,13 +13,19 @@ struct FileMesh {
     ObjMesh obj;                      ///< As the file has it.
     TriangleMesh mesh;                ///< [m]
     std::vector<int> vertex_source;   ///< Index of each vertex in the file, from 0.
-    std::vector<int> face_lines;      ///< Of the polygon that a face was cut from; 0: the file does not have it.
+    std::vector<int> face_polygons;   ///< Which polygon of the file a face was cut from; -1: it was made here.
     std::vector<Face> face_textures;  ///< Indices into obj.texture, -1 where a corner has none; empty without any.
 
     const std::string& file() const { return obj.path; }
     int number(int vertex) const { return vertex_source[std::size_t(vertex)] + 1; }  ///< In the file, from 1.
     int line_of(int vertex) const { return obj.vertex_lines[std::size_t(vertex_source[std::size_t(vertex)])]; }
-    InputPlace at_face(int face) const { return {obj.path, face_lines[std::size_t(face)], 0, {}}; }
+    /// Line of a face in a file with the same polygons, this one or a pose; 0: the files do not have it.
+    int line_of_face(const ObjMesh& in, int face) const
+    {
+        const int polygon = face_polygons[std::size_t(face)];
+        return polygon < 0 ? 0 : in.polygon_lines[std::size_t(polygon)];
+    }
+    InputPlace at_face(int face) const { return {obj.path, line_of_face(obj, face), 0, {}}; }
     InputPlace at_vertex(int vertex) const { return {obj.path, line_of(vertex), 0, {}}; }
 };
 

@@ -14,6 +14,7 @@
 #include "host/examine/weld.hpp"
 #include "host/mesh/body_tessellation.hpp"
 #include "io/mesh/length_unit.hpp"
+#include "io/number_text.hpp"
 
 namespace selvage {
 namespace {
@@ -29,9 +30,10 @@ struct SheetLimits {
 // A sheet while it is being loaded.
 struct Draft {
     FileMesh source;
-    JoinedSets point_of;      ///< Vertices of the source that are one point.
-    std::vector<Face> faces;  ///< Of the source, over points.
-    std::string key;          ///< As `sheet[0]`.
+    JoinedSets point_of;       ///< Vertices of the source that are one point.
+    std::vector<Face> faces;   ///< Of the source, over points.
+    std::string key;           ///< As `sheet[0]`.
+    double weld_distance = 0;  ///< [m]
 };
 
 // Returns for every texture coordinate the first of the same value, so that repeated ones count as one.
@@ -102,7 +104,6 @@ void split_by_texture(Draft& draft, double unit, LoadedSheet& sheet)
         if (point != corners[first][0]) first = c;
         if (first != c) sheet.joined.push_back({int(first), int(c)});
         sheet.mesh.vertices.push_back(source.mesh.vertices[point]);
-        sheet.numbers.push_back(source.vertex_source[point]);
         if (!equal.empty()) sheet.rest.push_back(unit * source.obj.texture[texture]);
     }
     for (std::size_t f = 0; f < draft.faces.size(); ++f) {
@@ -110,7 +111,13 @@ void split_by_texture(Draft& draft, double unit, LoadedSheet& sheet)
         for (int k = 0; k < 3; ++k)
             face[k] = int(std::lower_bound(corners.begin(), corners.end(), corner(f, k)) - corners.begin());
     }
-    sheet.face_lines = source.face_lines;
+    for (int v = 0; v < int(source.mesh.vertices.size()); ++v) {
+        const int point = draft.point_of.root(v);
+        for (auto c = std::ranges::lower_bound(corners, std::array{point, -1}); c != corners.end() && (*c)[0] == point;
+             ++c)
+            sheet.numbers.push_back({source.vertex_source[v], int(c - corners.begin())});
+    }
+    for (int f = 0; f < int(source.mesh.faces.size()); ++f) sheet.face_lines.push_back(source.at_face(f).line);
 }
 
 double rest_area(const LoadedSheet& sheet, const Face& face)
@@ -150,9 +157,11 @@ void find_coincident(Draft& draft, const Pieces& pieces, const LoadedSheet& shee
     if (joined > 0)
         findings.push_back({"weld",
                             {source.file(), 0, 0, {}},
-                            fmt::format("{} joined to others at the same place, {} of them across a seam of the rest "
-                                        "shape",
-                                        counted(joined, "vertex is", "vertices are"), sheet.joined.size()),
+                            fmt::format("{} joined to others {}, {} of them across a seam of the rest shape",
+                                        counted(joined, "vertex is", "vertices are"),
+                                        draft.weld_distance > 0 ? "within " + rounded_text(draft.weld_distance) + " m"
+                                                                : "at the same place",
+                                        sheet.joined.size()),
                             draft.key + ".weld says which are",
                             Severity::note});
     if (loose > 0)
@@ -289,8 +298,8 @@ LoadedSheet load_sheet(const Scene& scene, int index, std::vector<Finding>& find
     const bool textured = !mesh.face_textures.empty();
     const WeldRule weld = weld_rule(given.weld, true, scene.place(key + ".weld"));
     if (weld.seams && textured) join_along_texture(mesh, draft.point_of);
-    if (weld.any)
-        join_near(mesh.mesh.vertices, mesh.mesh.faces, weld.distance, scene.place(key + ".weld"), draft.point_of);
+    draft.weld_distance = weld.distance;
+    if (weld.any) join_near(mesh, weld.distance, scene.place(key + ".weld"), draft.point_of);
     draft.faces = mesh.mesh.faces;
     for (Face& face : draft.faces)
         for (int& v : face) v = draft.point_of.root(v);

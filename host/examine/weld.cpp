@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <string>
 
 #include <tbb/parallel_sort.h>
 
@@ -13,7 +13,9 @@
 namespace selvage {
 namespace {
 
-using Cell = std::array<long long, 3>;
+constexpr double cell_size = 1.5;  // of the distance: above 1, so that rounding keeps near points in adjacent cells
+
+using Cell = std::array<double, 3>;  // whole numbers
 
 struct CellPoint {
     Cell cell;
@@ -28,6 +30,20 @@ void for_each_in(const std::vector<CellPoint>& sorted, const Cell& cell, const V
     for (auto at = std::lower_bound(sorted.begin(), sorted.end(), CellPoint{cell, -1});
          at != sorted.end() && at->cell == cell; ++at)
         visit(at->point);
+}
+
+void refuse_lost_faces(const FileMesh& mesh, double distance, const InputPlace& place, JoinedSets& sets)
+{
+    const double least = least_area(mesh.mesh.vertices);
+    for (int f = 0; f < int(mesh.mesh.faces.size()); ++f) {
+        Face face = mesh.mesh.faces[f];
+        for (int& v : face) v = sets.root(v);
+        if (!(area_of(mesh.mesh.vertices, face) > least))
+            throw InputError(place,
+                             rounded_text(distance) + " m, by which the face at line " +
+                                 std::to_string(mesh.at_face(f).line) + " would lose its area",
+                             "a distance below the edges and heights of all faces");
+    }
 }
 
 }  // namespace
@@ -49,25 +65,18 @@ WeldRule weld_rule(const std::string& text, bool for_sheet, const InputPlace& pl
                      nearest_name(text, words));
 }
 
-void join_near(const std::vector<Vec3>& vertices, const std::vector<Face>& faces, double distance,
-               const InputPlace& place, JoinedSets& sets)
+void join_near(const FileMesh& mesh, double distance, const InputPlace& place, JoinedSets& sets)
 {
+    const std::vector<Vec3>& vertices = mesh.mesh.vertices;
     const std::vector<int> first = first_coincident_vertex(vertices);
     for (int v = 0; v < int(first.size()); ++v) sets.join(v, first[v]);
     if (distance == 0) return;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const Face& face : faces)
-        for (int k = 0; k < 3; ++k)
-            shortest = std::min(shortest, (vertices[face[k]] - vertices[face[(k + 1) % 3]]).norm());
-    if (!(shortest > 2 * distance))
-        throw InputError(place,
-                         rounded_text(distance) + " m, where the shortest edge is " + rounded_text(shortest) + " m",
-                         "less than half the shortest edge, as faces would vanish");
+    const double size = cell_size * distance;
     std::vector<CellPoint> cells;
     for (int v = 0; v < int(vertices.size()); ++v)
         if (first[v] == v)
-            cells.push_back({{std::llround(vertices[v].x() / distance), std::llround(vertices[v].y() / distance),
-                              std::llround(vertices[v].z() / distance)},
+            cells.push_back({{std::floor(vertices[v].x() / size), std::floor(vertices[v].y() / size),
+                              std::floor(vertices[v].z() / size)},
                              v});
     tbb::parallel_sort(cells.begin(), cells.end());
     for (const CellPoint& at : cells)
@@ -78,6 +87,7 @@ void join_near(const std::vector<Vec3>& vertices, const std::vector<Face>& faces
                             if (other > at.point && (vertices[other] - vertices[at.point]).norm() <= distance)
                                 sets.join(at.point, other);
                         });
+    refuse_lost_faces(mesh, distance, place, sets);
 }
 
 }  // namespace selvage

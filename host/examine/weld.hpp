@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
+#include "host/examine/file_mesh.hpp"
 #include "host/examine/mesh_edges.hpp"
 #include "io/errors.hpp"
-#include "io/geometry.hpp"
 
 namespace selvage {
 
@@ -19,10 +19,10 @@ struct WeldRule {
 /// @throws InputError for anything else
 WeldRule weld_rule(const std::string& text, bool for_sheet, const InputPlace& place);
 
-/// Joins the vertices that lie at most `distance` from each other.
-/// @param sets  over the vertices
-/// @throws InputError if an edge is not longer than `distance`: its face would vanish
-void join_near(const std::vector<Vec3>& vertices, const std::vector<Face>& faces, double distance,
-               const InputPlace& place, JoinedSets& sets);
+/// Joins the vertices of a mesh that lie at most `distance` [m] from each other, also by way of others.
+/// @param place  of the key, for messages
+/// @param sets   over the vertices
+/// @throws InputError if a face would lose its area, as where two of its corners are joined
+void join_near(const FileMesh& mesh, double distance, const InputPlace& place, JoinedSets& sets);
 
 }  // namespace selvage

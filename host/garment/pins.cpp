@@ -1,10 +1,12 @@
 #include "host/garment/pins.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <set>
 #include <span>
+
+#include "io/scene/pin_checks.hpp"
 
 namespace selvage {
 namespace {
@@ -79,39 +81,31 @@ std::set<int> group_vertices(PinGroup group, const Cloth& cloth, const ClothPane
 
 int last_number(const ClothPanel& panel)
 {
-    const std::vector<int>& numbers = panel.file_numbers;
-    return numbers.empty() ? panel.vertex_count - 1 : *std::max_element(numbers.begin(), numbers.end());
+    return panel.file_numbers.empty() ? panel.vertex_count - 1 : panel.file_numbers.back()[0];
 }
 
 // The vertices of a panel with a number: in its mesh file, where a vertex at a seam stands for several.
 std::set<int> vertices_of_number(const ClothPanel& panel, int number)
 {
     std::set<int> vertices;
-    if (panel.file_numbers.empty() && number >= 0 && number < panel.vertex_count) vertices.insert(number);
-    for (std::size_t v = 0; v < panel.file_numbers.size(); ++v)
-        if (panel.file_numbers[v] == number) vertices.insert(int(v));
+    if (panel.file_numbers.empty() && number < panel.vertex_count) vertices.insert(number);
+    for (auto at = std::ranges::lower_bound(panel.file_numbers, std::array{number, -1});
+         at != panel.file_numbers.end() && (*at)[0] == number; ++at)
+        vertices.insert((*at)[1]);
     return vertices;
 }
 
 std::set<int> listed_vertices(const std::string& list, const ClothPanel& panel, const InputPlace& place)
 {
     std::set<int> vertices;
-    for (std::size_t at = 0; at < list.size();) {
-        const std::size_t comma = std::min(list.find(',', at), list.size());
-        std::string word = list.substr(at, comma - at);
-        word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
-        int vertex = -1;
-        const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), vertex);
-        const std::set<int> named = fault == std::errc() && end == word.data() + word.size()
-                                        ? vertices_of_number(panel, vertex)
-                                        : std::set<int>();
+    for (const int number : listed_indices(list, place)) {
+        const std::set<int> named = vertices_of_number(panel, number);
         if (named.empty())
-            throw InputError(place, "`" + word + "`",
+            throw InputError(place, "`" + std::to_string(number) + "`",
                              "indices from 0 to " + std::to_string(last_number(panel)) + " of " + panel.name +
                                  (panel.file_numbers.empty() ? "" : ", of vertices that a face uses") +
                                  ", separated by commas");
         vertices.insert(named.begin(), named.end());
-        at = comma + 1;
     }
     return vertices;
 }

@@ -59,7 +59,8 @@ double face_area(const Cloth& cloth, const Face& face)
 // The number of a vertex of the sheet in its file, from 1.
 int number_in_file(const LoadedSheet& loaded, int vertex)
 {
-    return 1 + (loaded.numbers.empty() ? vertex : loaded.numbers[vertex]);
+    const auto found = std::ranges::find_if(loaded.numbers, [&](const auto& number) { return number[1] == vertex; });
+    return 1 + (found == loaded.numbers.end() ? vertex : (*found)[0]);
 }
 
 // Where a face of the sheet stands in its file.

@@ -19,12 +19,12 @@ Cloth make_sheet(const SheetScene& sheet, const std::string& file, const std::st
 
 /// A sheet's mesh as read from a file, with every vertex at one place of the rest shape.
 struct LoadedSheet {
-    std::string file;                        ///< For messages.
-    TriangleMesh mesh;                       ///< Start shape [m].
-    std::vector<Vec2> rest;                  ///< Rest shape [m], one per vertex; empty: the mesh is its own, and flat.
-    std::vector<std::array<int, 2>> joined;  ///< Vertices at one place that are one point of the cloth: at its seams.
-    std::vector<int> numbers;                ///< Index of each vertex in the file, from 0; empty: the same.
-    std::vector<int> face_lines;             ///< Line of each face in the file; empty: unknown.
+    std::string file;                         ///< For messages.
+    TriangleMesh mesh;                        ///< Start shape [m].
+    std::vector<Vec2> rest;                   ///< Rest shape [m], one per vertex; empty: the mesh is its own, and flat.
+    std::vector<std::array<int, 2>> joined;   ///< Vertices at one place that are one point of the cloth: at its seams.
+    std::vector<std::array<int, 2>> numbers;  ///< As ClothPanel::file_numbers.
+    std::vector<int> face_lines;              ///< Line of each face in the file; empty: unknown.
 };
 
 /// Makes a sheet from a mesh.

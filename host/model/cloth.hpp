@@ -14,10 +14,12 @@ struct ClothPanel {
     std::string fabric;  ///< Key into Scene::fabrics.
     int first_vertex = 0, vertex_count = 0;
     int first_face = 0, face_count = 0;
-    double rest_area = 0;           ///< Area of the triangulated outline [m^2].
-    double rest_boundary = 0;       ///< Length of the boundary polygon [m].
-    bool reversed = false;          ///< Its outside is the side from which the faces look clockwise.
-    std::vector<int> file_numbers;  ///< Index of each vertex in the mesh file it comes from; empty: made here.
+    double rest_area = 0;      ///< Area of the triangulated outline [m^2].
+    double rest_boundary = 0;  ///< Length of the boundary polygon [m].
+    bool reversed = false;     ///< Its outside is the side from which the faces look clockwise.
+    /// Index of a vertex in the mesh file, from 0, and one of the vertices it has become, from 0 in the panel; sorted.
+    /// A point at a seam is several vertices, and several of the file may be joined to one. Empty: made here.
+    std::vector<std::array<int, 2>> file_numbers;
 };
 
 /// The sampled vertices of one outline edge, from its start to its end.

@@ -52,10 +52,10 @@ Mat3 rotation_matrix(const Vec3& degrees)
         .toRotationMatrix();
 }
 
-// A loaded mesh's vertices in the scene.
+// Turns and shifts a loaded mesh, which has its size already.
 void place(const BodyScene& body_scene, std::vector<Vec3>& vertices)
 {
-    const Mat3 turn = body_scene.scale * rotation_matrix(body_scene.rotation);
+    const Mat3 turn = rotation_matrix(body_scene.rotation);
     for (Vec3& vertex : vertices) vertex = turn * vertex + body_scene.center;
 }
 

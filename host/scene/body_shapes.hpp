@@ -11,9 +11,8 @@ namespace selvage {
 /// @throws InputError for a plane's normal or a capsule's axis of no length
 Body make_body(const BodyScene& body_scene, const Scene& scene, int index);
 
-/// Makes a body from a mesh (shape = mesh or mannequin): scales it, turns it about x, then y, then z, and shifts it
-/// by `center`. A closed mesh whose faces are all wound clockwise is turned inside out.
-/// @param loaded  the mesh in metres, z up
+/// Makes a body from a mesh (shape = mesh or mannequin): turns it about x, then y, then z, and shifts it by `center`.
+/// @param loaded  the mesh in metres, z up, in the size that it has in the scene
 /// @throws InputError if the mesh has no faces, or a face names a vertex that does not exist
 Body make_body(const BodyScene& body_scene, const Scene& scene, int index, const TriangleMesh& loaded);
 

@@ -11,17 +11,7 @@ namespace {
 
 void check_vertex_list(const Scene& scene, const std::string& key, std::string_view list)
 {
-    while (!list.empty()) {
-        const std::size_t comma = std::min(list.find(','), list.size());
-        std::string_view item = list.substr(0, comma);
-        while (!item.empty() && item.front() == ' ') item.remove_prefix(1);
-        while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
-        double vertex = -1;
-        if (!parse_number(item, vertex) || vertex < 0 || vertex > 2147483647.0 || vertex != std::floor(vertex))
-            throw InputError(scene.place(key), "`" + std::string(item) + "`",
-                             "vertex indices from 0, separated by commas");
-        list.remove_prefix(std::min(comma + 1, list.size()));
-    }
+    listed_indices(list, scene.place(key));
 }
 
 // Pins that name no panel mean the sheets, and indices one sheet.
@@ -64,6 +54,23 @@ void check_hold(const Scene& scene, int index)
 }
 
 }  // namespace
+
+std::vector<int> listed_indices(std::string_view list, const InputPlace& place)
+{
+    std::vector<int> indices;
+    while (!list.empty()) {
+        const std::size_t comma = std::min(list.find(','), list.size());
+        std::string_view item = list.substr(0, comma);
+        while (!item.empty() && item.front() == ' ') item.remove_prefix(1);
+        while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
+        double index = -1;
+        if (!parse_number(item, index) || index < 0 || index > 2147483647.0 || index != std::floor(index))
+            throw InputError(place, "`" + std::string(item) + "`", "vertex indices from 0, separated by commas");
+        indices.push_back(int(index));
+        list.remove_prefix(std::min(comma + 1, list.size()));
+    }
+    return indices;
+}
 
 void check_pins(const Scene& scene)
 {

@@ -11,15 +11,14 @@ TEST_CASE("bodies of a scene are placed as it says, and impossible ones are refu
     Scene scene;
     BodyScene body_scene;
     body_scene.rotation = Vec3(90, 0, 90);
-    body_scene.scale = 2;
     body_scene.center = Vec3(0, 0, 1);
     TriangleMesh mesh;
     mesh.vertices = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}};
     mesh.faces = {{0, 1, 2}};
     const Body placed = make_body(body_scene, scene, 0, mesh);
-    CHECK((placed.mesh.vertices[0] - Vec3(0, 0, 3)).norm() < 1e-12);  // y to z by x; z is kept by z
-    CHECK((placed.mesh.vertices[1] - Vec3(0, 2, 1)).norm() < 1e-12);  // x is kept by x; x to y by z
-    CHECK((placed.mesh.vertices[2] - Vec3(2, 0, 1)).norm() < 1e-12);  // z to -y by x; -y to x by z
+    CHECK((placed.mesh.vertices[0] - Vec3(0, 0, 2)).norm() < 1e-12);  // y to z by x; z is kept by z
+    CHECK((placed.mesh.vertices[1] - Vec3(0, 1, 1)).norm() < 1e-12);  // x is kept by x; x to y by z
+    CHECK((placed.mesh.vertices[2] - Vec3(1, 0, 1)).norm() < 1e-12);  // z to -y by x; -y to x by z
 
     mesh.faces = {{0, 1, 3}};
     CHECK_THROWS_AS(make_body(body_scene, scene, 0, mesh), InputError);

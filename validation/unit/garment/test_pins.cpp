@@ -53,6 +53,8 @@ TEST_CASE("pins hold the vertices that their word names")
     CHECK_THROWS_WITH(chosen(cloth, {"", PinGroup::none, "16"}),
                       contains_text("pins.vertices") && contains_text("from 0 to 15 of sheet[0]"));
     CHECK_THROWS_WITH(chosen(cloth, {"", PinGroup::none, "1,x"}), contains_text("pins.vertices"));
+    CHECK_THROWS_WITH(chosen(cloth, {"", PinGroup::none, "1 2"}),
+                      contains_text("`1 2`") && contains_text("separated by commas"));
     CHECK(chosen(small_sheet(MeshFamily::irregular), {"", PinGroup::left_edge, ""}) == Vertices{0, 4, 8, 12});
 }
 
