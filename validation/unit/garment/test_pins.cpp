@@ -2,6 +2,7 @@
 
 #include "host/garment/sheet.hpp"
 #include "host/scene/scene_model.hpp"
+#include "host/solver/contact/pin_paths.hpp"
 #include "io/scene/read_scene.hpp"
 #include "validation/unit/catch.hpp"
 
@@ -81,6 +82,18 @@ TEST_CASE("pins hold vertices of a garment's panel")
     for (const ClothPanel& panel : cloth.panels)
         for (const int v : cloth.pinned)
             if (v >= panel.first_vertex && v < panel.first_vertex + panel.vertex_count) CHECK(panel.name == "back");
+}
+
+TEST_CASE("a point at a seam moves once, though several of its vertices are listed")
+{
+    Cloth cloth = small_sheet();
+    cloth.seam_pairs.push_back({0, 1});
+    PinMotionScene motion;
+    motion.velocity = Vec3(0, 0, 1);
+    move_vertices(cloth, {0, 1}, motion);
+    const auto places = PinPaths(cloth, make_topology(cloth, true)).places(motion.end);
+    REQUIRE(places.size() == 1);
+    CHECK((places[0].second - cloth.positions[0] - Vec3(0, 0, 1)).norm() < 1e-12);
 }
 
 TEST_CASE("pins that could not act are refused with what they could be")
