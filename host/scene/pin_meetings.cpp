@@ -16,6 +16,7 @@
 
 #include "host/collision/ccd.hpp"
 #include "host/model/body_motion.hpp"
+#include "host/model/cloth_place.hpp"
 #include "host/solver/contact/pin_paths.hpp"
 
 namespace selvage {
@@ -344,10 +345,8 @@ std::array<int, 2> nearest_corners(const Meeting& meeting, const HeldVertices& h
 
 std::string vertex_name(const Cloth& cloth, int vertex)
 {
-    for (const ClothPanel& panel : cloth.panels)
-        if (vertex < panel.first_vertex + panel.vertex_count)
-            return fmt::format("{} of {}", vertex - panel.first_vertex, panel.name);
-    return std::to_string(vertex);
+    const ClothPanel& panel = panel_of_vertex(cloth, vertex);
+    return fmt::format("{} of {}", vertex - panel.first_vertex, panel.name);
 }
 
 }  // namespace
