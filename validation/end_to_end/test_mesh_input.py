@@ -215,6 +215,11 @@ class Sheets(MeshInput):
         told = self.found(self.SCENE + 'weld = "0.0009"\n')[0]["weld"]
         self.assertIn("4 vertices are joined to others within 0.0009 m", told)      # those of one place
 
+    def test_a_distance_that_would_join_the_corners_of_a_face_is_refused_with_its_line(self):
+        lines = self.loose()
+        self.write("sheet.obj", lines + [vertex(0.2, 0, 0), vertex(0.201, 0, 0), vertex(0.2, 0.2, 0), "f 17 18 19"])
+        self.refused(self.SCENE + 'weld = "0.002"\n', "sheet[0].weld", "face at line 24 would lose its area")
+
 
 class Bodies(MeshInput):
     SCENE = '[[sheet]]\nwidth = 0.5\nheight = 0.5\nresolution = 9\ncenter = [0, 0, 0.6]\n[[body]]\nmesh = "body.obj"\n'
