@@ -13,6 +13,7 @@
 #include "io/file_text.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/number_text.hpp"
+#include "io/scene/presets.hpp"
 
 namespace selvage {
 namespace {
@@ -56,7 +57,7 @@ struct Table {
     // A key whose word may be the name of a file, or of several with a *.
     void put_file(const char* key, const std::string& name) const
     {
-        if (name.empty() || name.starts_with("builtin:")) return;
+        if (name.empty() || is_builtin(name)) return;
         const std::string file = scene.resolve(name);
         std::vector<std::string> files{file};
         if (file.find('*') != std::string::npos) {
@@ -81,10 +82,7 @@ struct Table {
 #define SCENE_TABLE(name, type, keys, meaning) \
     void put_keys(const Table& table, const type& from) { keys(PUT_KEY, PUT_WORD, PUT_CHOICE, PUT_VEC3) }
 SCENE_TABLES(SCENE_TABLE)
-SCENE_TABLE(sheet, SheetScene, SHEET_KEYS, "")
-SCENE_TABLE(body, BodyScene, BODY_KEYS, "")
-SCENE_TABLE(keyframe, KeyframeScene, KEYFRAME_KEYS, "")
-SCENE_TABLE(motion, PinMotionScene, PIN_MOTION_KEYS, "")
+REPEATED_TABLES(SCENE_TABLE)
 #undef SCENE_TABLE
 #undef PUT_KEY
 #undef PUT_WORD
@@ -133,6 +131,8 @@ std::map<std::string, std::string> scene_values(const Scene& scene)
         table.put_file("mesh", scene.sheets[s].mesh);
     }
     put_bodies(scene, values);
+    for (std::size_t h = 0; h < scene.pin_holds.size(); ++h)
+        put_keys({scene, fmt::format("pins.hold[{}].", h), values}, scene.pin_holds[h]);
     for (std::size_t m = 0; m < scene.pin_motions.size(); ++m)
         put_keys({scene, fmt::format("pins.motion[{}].", m), values}, scene.pin_motions[m]);
     for (const auto& [name, fabric] : scene.fabrics) put_fabric({scene, "fabric." + name + ".", values}, fabric);

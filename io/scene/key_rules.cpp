@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "io/integrators.hpp"
+#include "io/scene/presets.hpp"
 
 namespace selvage {
 namespace {
@@ -45,7 +46,7 @@ bool sews(const Element& e)
     return e.scene.has_garment() || std::ranges::any_of(e.scene.sheets, is_mesh);
 }
 
-bool builtin_pattern(const Element& e) { return e.scene.garment.pattern.starts_with("builtin:"); }
+bool builtin_pattern(const Element& e) { return is_builtin(e.scene.garment.pattern); }
 
 bool meets_bodies(const Element& e) { return e.scene.contact.body && !e.scene.bodies.empty(); }
 

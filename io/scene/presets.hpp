@@ -6,6 +6,12 @@
 
 namespace selvage {
 
+/// Begins the names of scenes and patterns that are built into the program.
+inline constexpr std::string_view builtin_prefix = "builtin:";
+
+/// Returns whether a name is one of those.
+inline bool is_builtin(std::string_view name) { return name.starts_with(builtin_prefix); }
+
 /// A file of io/presets that is built into the program by io/embed_presets.cmake.
 struct PresetFile {
     std::string_view path;  ///< Below io/presets, such as `fabrics/cotton.toml`.

@@ -18,9 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* scene_folder = "scenes";
-constexpr std::string_view builtin_prefix = "builtin:";
-
-bool is_builtin(std::string_view name) { return name.substr(0, builtin_prefix.size()) == builtin_prefix; }
 
 TomlDocument read_document(const std::string& source)
 {
@@ -38,11 +35,7 @@ TomlDocument read_document(const std::string& source)
 #define SCENE_TABLE(name, type, keys, meaning) \
     void read_keys(TableReader& reader, type& target) { keys(READ_KEY, READ_WORD, READ_CHOICE, READ_VEC3) }
 SCENE_TABLES(SCENE_TABLE)
-SCENE_TABLE(sheet, SheetScene, SHEET_KEYS, "")
-SCENE_TABLE(body, BodyScene, BODY_KEYS, "")
-SCENE_TABLE(keyframe, KeyframeScene, KEYFRAME_KEYS, "")
-SCENE_TABLE(hold, PinHoldScene, PIN_HOLD_KEYS, "")
-SCENE_TABLE(motion, PinMotionScene, PIN_MOTION_KEYS, "")
+REPEATED_TABLES(SCENE_TABLE)
 #undef SCENE_TABLE
 #undef READ_KEY
 #undef READ_WORD

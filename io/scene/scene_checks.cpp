@@ -9,6 +9,7 @@
 #include "io/number_text.hpp"
 #include "io/scene/fabric_table.hpp"
 #include "io/scene/pin_checks.hpp"
+#include "io/scene/presets.hpp"
 
 namespace selvage {
 namespace {
@@ -38,7 +39,7 @@ void check_garment(const Scene& scene)
     if (!given) return;
     constexpr std::string_view kind = "a GarmentCode JSON file or a built-in pattern such as builtin:tshirt";
     const std::string& pattern = scene.garment.pattern;
-    if (pattern.rfind("builtin:", 0) != 0) check_file(scene, "garment.pattern", pattern, kind);
+    if (!is_builtin(pattern)) check_file(scene, "garment.pattern", pattern, kind);
 }
 
 void check_sheet(const Scene& scene, int index, std::set<std::string>& names)

@@ -258,6 +258,18 @@
     KEY(double, checkpoint_interval, 5, "s", 0, 1e6, "wall time between checkpoints")                            \
     KEY(bool, keep_checkpoint, false, "1", 0, 1, "keep the checkpoint at a normal end")
 
+// Tables that may be repeated: TABLE(path, struct, keys, meaning)
+#define REPEATED_TABLES(TABLE)                                                                                  \
+    TABLE("sheet", SheetScene, SHEET_KEYS, "plain cloth; may be repeated")                                      \
+    TABLE("body", BodyScene, BODY_KEYS, "what the cloth falls on; may be repeated")                             \
+    TABLE("body.keyframe", KeyframeScene, KEYFRAME_KEYS,                                                        \
+          "where a body is at a time, under its [[body]]; it moves from one to the next and stays at the last") \
+    TABLE("pins.hold", PinHoldScene, PIN_HOLD_KEYS,                                                             \
+          "vertices of one sheet or panel that are held; may be "                                               \
+          "repeated")                                                                                           \
+    TABLE("pins.motion", PinMotionScene, PIN_MOTION_KEYS,                                                       \
+          "held vertices that move; those that share vertices act one after the other on where these are")
+
 // Tables that appear once: TABLE(name, struct, keys, meaning)
 #define SCENE_TABLES(TABLE)                                                                                     \
     TABLE(garment, GarmentScene, GARMENT_KEYS, "a garment sewn from a pattern")                                 \

@@ -111,32 +111,10 @@ std::vector<TableText> tables()
 #undef SCENE_TABLE
     list.push_back(
         {"[garment.fabrics]", "garment.fabrics", "fabrics of single panels, as PANEL = \"FABRIC\"", false, {}});
-    list.push_back({"[[sheet]]",
-                    "sheet",
-                    "plain cloth; may be repeated",
-                    true,
-                    {SHEET_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
-    list.push_back({"[[body]]",
-                    "body",
-                    "what the cloth falls on; may be repeated",
-                    true,
-                    {BODY_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
-    list.push_back(
-        {"[[body.keyframe]]",
-         "body.keyframe",
-         "where a body is at a time, under its [[body]]; it moves from one to the next and stays at the last",
-         true,
-         {KEYFRAME_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
-    list.push_back({"[[pins.hold]]",
-                    "pins.hold",
-                    "vertices of one sheet or panel that are held; may be repeated",
-                    true,
-                    {PIN_HOLD_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
-    list.push_back({"[[pins.motion]]",
-                    "pins.motion",
-                    "held vertices that move; those that share vertices act one after the other on where these are",
-                    true,
-                    {PIN_MOTION_KEYS(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
+#define REPEATED_TABLE(path, type, keys, meaning) \
+    list.push_back({"[[" path "]]", path, meaning, true, {keys(LIST_KEY, LIST_WORD, LIST_CHOICE, LIST_VEC3)}});
+    REPEATED_TABLES(REPEATED_TABLE)
+#undef REPEATED_TABLE
     list.push_back({"[fabric.NAME]",
                     "fabric.NAME",
                     "a fabric of the scene's own, or changes to a built-in one",

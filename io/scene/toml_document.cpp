@@ -2,6 +2,7 @@
 #include <cctype>
 #include <charconv>
 #include <sstream>
+#include <stdexcept>
 
 #include "io/number_text.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -172,11 +173,36 @@ void apply_override(TomlDocument& document, const std::string& override_text)
         merge(document, document.root, assignment, "", override_text);
 }
 
+namespace {
+
+// Names may hold dots themselves, as that of a fabric "wool 1.5": each name of a table is tried at the front of the
+// path.
+bool erase(toml::table& table, std::string_view path)
+{
+    for (auto&& [key, node] : table) {
+        if (path == key.str()) {
+            table.erase(key);
+            return true;
+        }
+        if (!path.starts_with(key.str())) continue;
+        std::string_view rest = path.substr(key.str().size());
+        toml::table* inner = node.as_table();
+        if (toml::array* elements = node.as_array(); elements && rest.starts_with('[')) {
+            std::size_t index = 0;
+            const char* const end = std::from_chars(rest.data() + 1, rest.data() + rest.size(), index).ptr;
+            rest.remove_prefix(std::min(rest.size(), std::size_t(end - rest.data()) + 1));
+            inner = index < elements->size() ? (*elements)[index].as_table() : nullptr;
+        }
+        if (inner && rest.starts_with('.') && erase(*inner, rest.substr(1))) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 void remove_key(toml::table& root, const std::string& path)
 {
-    const std::size_t last = path.rfind('.');
-    const toml::node_view<toml::node> outer = root.at_path(path.substr(0, last));
-    if (toml::table* table = outer.as_table()) table->erase(path.substr(last + 1));
+    if (!erase(root, path)) throw std::logic_error("no key " + path + " to remove");
 }
 
 std::string toml_value_text(const toml::node& node)
