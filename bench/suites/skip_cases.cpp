@@ -138,6 +138,7 @@ std::vector<Feature> features(const std::string& folder)
          },
          "bending_hysteresis"},
         {"curves", nothing, {}, [curve](SceneParts& parts) { parts.weft = curve; }, "curved_membrane"},
+        {"wind", nothing, {}, [](SceneParts& parts) { parts.tables = "[wind]\nvelocity = [1, 0, 0]\n"; }, "wind"},
         {"self-contact", nothing, [](SceneParts& parts) { parts.contact = "self = true"; }, {}, "cloth_contact_pairs"},
         {"sleep",
          [](SceneParts& parts) {

@@ -195,7 +195,6 @@ void visit_params(AnySystem& system, const Visit& visit)
     };
     visit_air("wind", system.params().wind);
     visit_air("air_drag", system.params().air_drag);
-    visit("face_air", system.state().face_air);
 }
 
 template <class Visit>

@@ -46,6 +46,7 @@ PhaseEnd minimise_statics(Phase& phase, const EquilibriumOptions& options, Drape
             !after_step({system.clock().time, 0, report.iterations, report.linear_iterations, report.residual})) {
             restore_crossings(system, start);
             restore(system, nullptr, start);
+            system.refresh_air();
             system.refresh_planes();
             system.refresh_pairs();
             options.attempt(true);

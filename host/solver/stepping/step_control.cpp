@@ -38,6 +38,7 @@ void StepControl::return_to(const SolverSnapshot& place, double time)
     system_.clock() = {time, 0};
     if (moves_) system_.place_boundary();
     restore(system_, &integrator_, place);
+    system_.refresh_air();
     system_.refresh_planes();
     system_.refresh_pairs();  // what was listed on the way that is given up says nothing of this place
     looked_from_ = place.fields.pos;
@@ -151,7 +152,7 @@ bool StepControl::passed_into_body(bool last)
 // falls, but for the waves of a scheme that keeps it on average.
 bool StepControl::keeps_energy(const Cover& cover)
 {
-    if (moves_ || system_.meets_air() || !integrator_.may_gain_energy()) return true;
+    if (moves_ || system_.wind_blows() || !integrator_.may_gain_energy()) return true;
     auto& [dt, known, first_energy, highest_kinetic, lowest_potential] = memory_;
     if (!known) {
         first_energy = cover.kinetic_before + cover.potential_before;

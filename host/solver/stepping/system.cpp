@@ -105,7 +105,7 @@ void System::refresh_planes()
 
 void System::refresh_air()
 {
-    if (!meets_air()) return;
+    if (state_.face_air.empty()) return;
     if (around_.air) {
         const Vec3 velocity = around_.air->velocity(clock_.end());
         set_air(params_.wind, velocity);

@@ -61,7 +61,8 @@ public:
     /// Writes d2R/dv2 to state.vertex_stiffness [kg/s].
     void evaluate_drag() { terms_.evaluate_drag(); }
     bool dissipates() const { return terms_.dissipates(); }
-    bool meets_air() const { return !state_.face_air.empty(); }
+    /// Air that moves, and may so feed the cloth with energy; air that is still only takes it.
+    bool wind_blows() const { return params_.wind.normal > 0 || params_.wind.tangential > 0; }
     /// Of all conservative terms on what is awake [J]; counted in the profile.
     double awake_energy() { return terms_.energy(); }
     double dissipation() const { return terms_.dissipation(); }  ///< R of what is awake [W].
