@@ -16,6 +16,7 @@
 #include "io/errors.hpp"
 #include "io/memory.hpp"
 #include "io/mesh/mesh_obj.hpp"
+#include "io/scene/presets.hpp"
 #include "io/version.hpp"
 
 namespace selvage {
@@ -45,7 +46,7 @@ TrajectoryLayout trajectory_layout(const RunSettings& settings, const Cloth& clo
     layout.triangle_panel = face_panels(cloth);
     layout.seam_pairs = cloth.seam_pairs;
     layout.scene_text = settings.text;
-    const bool builtin = settings.file.starts_with("builtin:");
+    const bool builtin = is_builtin(settings.file);
     layout.scene_file = builtin ? settings.file : std::filesystem::absolute(settings.file).string();
     layout.version = version;
     layout.grid = settings.output.precision;

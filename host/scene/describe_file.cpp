@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "io/errors.hpp"
@@ -13,6 +14,7 @@
 #include "io/pattern/pattern_json.hpp"
 #include "io/run/describe.hpp"
 #include "io/scene/fabric_table.hpp"
+#include "io/scene/presets.hpp"
 #include "io/scene/read_scene.hpp"
 #include "io/utf8.hpp"
 
@@ -23,12 +25,9 @@ using Json = nlohmann::ordered_json;
 
 Json size_of(const std::vector<Vec3>& points)
 {
-    Vec3 low = points.front(), high = low;
-    for (const Vec3& point : points) {
-        low = low.cwiseMin(point);
-        high = high.cwiseMax(point);
-    }
-    const Vec3 size = high - low;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& point : points) box.extend(point);
+    const Vec3 size = box.sizes();
     return {size.x(), size.y(), size.z()};
 }
 
@@ -144,9 +143,9 @@ std::string describe_file(const std::string& source, bool json)
     const bool is_fabric = !present && std::find(fabrics.begin(), fabrics.end(), source) != fabrics.end();
     if (present && is_hdf5(read_file_start(source, "a run, a mesh, a pattern, a scene or fabrics", 8)))
         return describe_run(source, json);
-    const Json held = is_fabric                        ? describe_fabrics(source, {fabric_preset(source)})
-                      : source.starts_with("builtin:") ? describe_scene(source)
-                                                       : describe_text_file(source);
+    const Json held = is_fabric            ? describe_fabrics(source, {fabric_preset(source)})
+                      : is_builtin(source) ? describe_scene(source)
+                                           : describe_text_file(source);
     return json ? held.dump(2, ' ', false, Json::error_handler_t::replace) + "\n" : lines(held);
 }
 

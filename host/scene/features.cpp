@@ -50,9 +50,6 @@ void set_air(const WindScene& wind, auto& term)
 {
     term.normal = wind.density * wind.normal_coefficient;
     term.tangential = wind.density * wind.tangential_coefficient;
-    term.velocity_x = wind.velocity.x();
-    term.velocity_y = wind.velocity.y();
-    term.velocity_z = wind.velocity.z();
 }
 
 std::string wind(const FeatureCase& with, Params& params)

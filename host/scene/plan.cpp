@@ -88,12 +88,13 @@ void list_feature(std::string_view name, const FeatureCase& with, RunPlan& plan,
 
 // What is there at once when a run takes most: the larger phase, with the coarser cloth that is draped meanwhile, and
 // the results of its end.
-std::vector<MemoryPart> whole_memory(const Scene& scene, const SceneModel& model, const RunPlan& plan)
+std::vector<MemoryPart> whole_memory(const Scene& scene, const SceneModel& model, const RunPlan& plan,
+                                     const MemoryPart& present)
 {
     const auto less = [](const PhasePlan& a, const PhasePlan& b) {
         return total_bytes(a.memory) < total_bytes(b.memory);
     };
-    std::vector<MemoryPart> memory{present_memory()};
+    std::vector<MemoryPart> memory{present};
     const PhasePlan& largest = *std::max_element(plan.phases.begin(), plan.phases.end(), less);
     memory.insert(memory.end(), largest.memory.begin(), largest.memory.end());
     if (plan.coarse_start) {
@@ -116,6 +117,7 @@ bool is_active(const RunPlan& plan, std::string_view feature)
 RunPlan make_plan(const Scene& scene, const SceneModel& model)
 {
     RunPlan plan;
+    const MemoryPart present = present_memory();  // before the plan itself takes and gives back any
     plan.integrators = drape_integrators(scene);
     if (model.sews) plan.phases.push_back(plan_phase(scene, model, RunStage::sew));
     plan.phases.push_back(plan_phase(scene, model, RunStage::drape));
@@ -127,7 +129,7 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
     plan.embree = is_active(plan, "embree");
     plan.coarse_start = is_active(plan, "coarse_start");
 
-    plan.memory = whole_memory(scene, model, plan);
+    plan.memory = whole_memory(scene, model, plan, present);
     plan.peak_bytes = total_bytes(plan.memory);
     return plan;
 }

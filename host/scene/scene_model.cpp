@@ -24,6 +24,7 @@
 #include "host/scene/scene_pins.hpp"
 #include "io/memory.hpp"
 #include "io/pattern/pattern_json.hpp"
+#include "io/scene/presets.hpp"
 
 namespace selvage {
 namespace {
@@ -83,10 +84,9 @@ void find_limits(const Scene& scene, SceneModel& model)
 
 Pattern read_pattern(const Scene& scene)
 {
-    constexpr std::string_view prefix = "builtin:";
     const std::string& name = scene.garment.pattern;
-    Pattern pattern = name.starts_with(prefix)
-                          ? builtin_pattern(name.substr(prefix.size()), scene.garment.size)
+    Pattern pattern = is_builtin(name)
+                          ? builtin_pattern(name.substr(builtin_prefix.size()), scene.garment.size)
                           : read_pattern_json(scene.resolve(name), {scene.garment.up_axis, scene.garment.rotation_order,
                                                                     scene.places.contains("garment.rotation_order")});
     if (pattern.file.empty()) pattern.file = name;

@@ -44,7 +44,7 @@ class Skip(unittest.TestCase):
         for run in runs:
             feature, state = run["name"].split("/")
             states.setdefault(feature, {})[state] = run
-        self.assertLessEqual({"body", "friction", "embree", "damping", "hysteresis", "curves",
+        self.assertLessEqual({"body", "friction", "embree", "damping", "hysteresis", "curves", "wind",
                               "self-contact", "sleep", "frames", "picture"}, set(states))
         for feature, of in states.items():
             with self.subTest(feature):
