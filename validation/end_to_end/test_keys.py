@@ -295,10 +295,11 @@ class Keys(unittest.TestCase):
     def outcome(self, text):
         """What a run leaves, but for times."""
         name = self.write(text)
-        result = subprocess.run([PROGRAM, "drape", f"{name}.toml", "-o", name, "--quiet"], cwd=self.root,
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.root))   # of its own: two threads may ask for the same text
+        result = subprocess.run([PROGRAM, "drape", f"{name}.toml", "-o", folder.name, "--quiet"], cwd=self.root,
                                 capture_output=True, text=True, timeout=100)
-        left = {"code": result.returncode, "errors": result.stderr.replace(name, "scene")}
-        folder = self.root / name
+        errors = result.stderr.replace(folder.name, "folder").replace(name, "scene")
+        left = {"code": result.returncode, "errors": errors}
         if (folder / "summary.json").exists():
             summary = json.loads((folder / "summary.json").read_text())
             left["summary"] = {key: summary[key] for key in
