@@ -67,4 +67,13 @@ double typical_edge(const Cloth& cloth)
     return cloth.faces.empty() ? 0.01 : total / (3 * double(cloth.faces.size()));
 }
 
+double least_height(const Cloth& cloth, int face)
+{
+    const Face& f = cloth.faces[face];
+    const Vec2 a = cloth.panel_coordinates[f[1]] - cloth.panel_coordinates[f[0]];
+    const Vec2 b = cloth.panel_coordinates[f[2]] - cloth.panel_coordinates[f[0]];
+    const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()}));
+    return std::abs(a.x() * b.y() - a.y() * b.x()) / longest;
+}
+
 }  // namespace selvage

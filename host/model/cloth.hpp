@@ -75,6 +75,9 @@ void append_cloth(Cloth& to, const Cloth& other);
 /// Returns the mean length of the edges of all faces at rest [m]; 0.01 without faces.
 double typical_edge(const Cloth& cloth);
 
+/// Returns the least height of a face at rest [m].
+double least_height(const Cloth& cloth, int face);
+
 /// A prolongation: linear interpolation from the vertices of a coarse cloth to those of a fine one, in compressed rows.
 struct Prolongation {
     std::vector<int> offset;     ///< Fine vertex count + 1.

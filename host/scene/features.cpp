@@ -229,7 +229,7 @@ std::string cloth_contact(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_cloth_law(with, ContactResponse::barrier); !reason.empty()) return reason;
     params.cloth_contact.stiffness = contact_stiffness(with.scene, with.model);
-    params.cloth_contact.gap = gap_of_cloth(with.scene, with.model);
+    params.cloth_contact.gap = with.scene.contact.gap;
     return on;
 }
 
@@ -237,7 +237,7 @@ std::string cloth_repulsion(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_cloth_law(with, ContactResponse::exponential); !reason.empty()) return reason;
     params.cloth_repulsion.stiffness = contact_stiffness(with.scene, with.model);
-    params.cloth_repulsion.gap = gap_of_cloth(with.scene, with.model);
+    params.cloth_repulsion.gap = with.scene.contact.gap;
     return on;
 }
 

@@ -22,6 +22,7 @@
 #include "host/scene/body_model.hpp"
 #include "host/scene/pin_meetings.hpp"
 #include "host/scene/scene_pins.hpp"
+#include "host/solver/contact/contact_tuning.hpp"
 #include "io/memory.hpp"
 #include "io/pattern/pattern_json.hpp"
 #include "io/scene/presets.hpp"
@@ -46,35 +47,35 @@ struct LeastHeight {
     int face = 0;
 };
 
-LeastHeight least_height(const Cloth& cloth)
+LeastHeight narrowest(const Cloth& cloth)
 {
     LeastHeight least;
-    for (int face = 0; face < int(cloth.faces.size()); ++face) {
-        const Face& f = cloth.faces[face];
-        const Vec2 a = cloth.panel_coordinates[f[1]] - cloth.panel_coordinates[f[0]];
-        const Vec2 b = cloth.panel_coordinates[f[2]] - cloth.panel_coordinates[f[0]];
-        const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()}));
-        const double height = std::abs(a.x() * b.y() - a.y() * b.x()) / longest;
-        if (height < least.height) least = {height, face};
-    }
+    for (int face = 0; face < int(cloth.faces.size()); ++face)
+        if (const double height = least_height(cloth, face); height < least.height) least = {height, face};
     return least;
+}
+
+// Where cloth begins to press on cloth at most [m]; see ContactGaps.
+double widest_gap(const Scene& scene, const SceneModel& model)
+{
+    double thickest = scene.contact.gap;
+    for (const auto& [name, fabric] : model.cloth_model.fabrics) thickest = std::max(thickest, fabric.thickness);
+    return std::min(thickest, ContactTuning::gap_of_edge * model.edge_length);
 }
 
 // What a run cannot do as it is meant.
 void find_limits(const Scene& scene, SceneModel& model)
 {
     const Cloth& cloth = model.cloth_model.cloth;
-    const LeastHeight least = least_height(cloth);
-    model.least_height = least.height;
+    const LeastHeight least = narrowest(cloth);
     if (scene.contact.self && least.height < sliver * model.edge_length)
         model.findings.push_back(
             {"triangle",
              {},
-             fmt::format(
-                 "the narrowest triangle, {}, is {:.2g} m high, where edges are {:.2g} m long: cloth presses on "
-                 "cloth from less than that height only, in the whole scene",
-                 describe_face(cloth, least.face, cloth.positions), least.height, model.edge_length),
-             "mesh that place without slivers, or layers rest nearer to each other than contact.gap asks"});
+             fmt::format("the narrowest triangle, {}, is {:.2g} m high, where edges are {:.2g} m long: cloth beside it "
+                         "presses on cloth of the same piece from less than that height only",
+                         describe_face(cloth, least.face, cloth.positions), least.height, model.edge_length),
+             "mesh that place without slivers, or its folds come nearer to each other there than contact.gap asks"});
     if (cloth.pinned.size() == cloth.positions.size())
         model.findings.push_back(
             {"pins", scene.place("pins"),
@@ -243,8 +244,7 @@ SceneModel build_scene_model(const Scene& scene)
     result.edge_length = typical_edge(result.cloth_model.cloth);
     find_limits(scene, result);
     append_findings(result.findings, examine_scene(scene, result.cloth_model, result.edge_length));
-    if (std::optional<Finding> meeting =
-            find_meeting_pins(result.cloth_model.cloth, scene, gap_of_cloth(scene, result)))
+    if (std::optional<Finding> meeting = find_meeting_pins(result.cloth_model.cloth, scene, widest_gap(scene, result)))
         result.findings.push_back(std::move(*meeting));
     if (!scene.has_garment()) {
         add_ripple(result.cloth_model.cloth);
@@ -252,13 +252,6 @@ SceneModel build_scene_model(const Scene& scene)
     }
     append_findings(result.findings, examine_start(result.cloth_model, scene));
     return result;
-}
-
-double gap_of_cloth(const Scene& scene, const SceneModel& model)
-{
-    double thickest = scene.contact.gap;
-    for (const auto& [name, fabric] : model.cloth_model.fabrics) thickest = std::max(thickest, fabric.thickness);
-    return std::min({thickest, 0.4 * model.edge_length, 0.8 * model.least_height});
 }
 
 SceneModel coarser_model(const SceneModel& model, std::size_t level)
@@ -273,7 +266,6 @@ SceneModel coarser_model(const SceneModel& model, std::size_t level)
                           whole.bodies};
     result.sews = model.sews;
     result.edge_length = typical_edge(result.cloth_model.cloth);
-    result.least_height = least_height(result.cloth_model.cloth).height;
     return result;
 }
 

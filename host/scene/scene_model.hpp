@@ -13,19 +13,13 @@ struct Scene;
 struct SceneModel {
     ClothModel cloth_model;
     std::vector<Finding> findings;
-    bool sews = false;           ///< There are seams to close before draping.
-    double edge_length = 0.01;   ///< Typical rest edge of the finest cloth [m].
-    double least_height = 0.01;  ///< Of any triangle of the finest cloth at rest [m].
+    bool sews = false;          ///< There are seams to close before draping.
+    double edge_length = 0.01;  ///< Typical rest edge of the finest cloth [m].
 };
 
 /// Reads, meshes and places everything that a scene names.
 /// @throws InputError for any fault of a pattern, mesh, measure or resolution
 SceneModel build_scene_model(const Scene& scene);
-
-/// Returns where cloth begins to press on cloth [m]: at its thickness, or at contact.gap if that is more, but well
-/// below the length of an edge and below the height of any triangle, since neighbours in a panel must not press on each
-/// other.
-double gap_of_cloth(const Scene& scene, const SceneModel& model);
 
 /// Returns the same scene with its cloth as level `level` of cloth_model.coarser has it, and what is coarser than that.
 SceneModel coarser_model(const SceneModel& model, std::size_t level);

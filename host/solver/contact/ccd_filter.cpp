@@ -28,29 +28,28 @@ CcdFilter::CcdFilter(TreeSurface surface, double slack, const ContactGaps& gaps,
 {
 }
 
-StepMargins CcdFilter::margins() const { return {ContactTuning::kept, ContactTuning::scarce * gaps_.cloth}; }
+StepMargins CcdFilter::margins() const { return {ContactTuning::kept, ContactTuning::scarce}; }
 
-StepMargins CcdFilter::held_margins() const
-{
-    return {ContactTuning::held_kept, ContactTuning::held_scarce * gaps_.cloth};
-}
+StepMargins CcdFilter::held_margins() const { return {ContactTuning::held_kept, ContactTuning::held_scarce}; }
 
 // How near a pair may come in one step. No barrier lets it come to its floor, and many steps one after the other must
 // not lead to where rounding decides either.
 double CcdFilter::least_distance(const PairCandidate& candidate, const PairDistance& at,
                                  const StepMargins& margins) const
 {
-    const double floor = ContactTuning::floor * (has_body(candidate) ? gaps_.body : gaps_.cloth);
-    const double distance = std::min<double>(at.distance, gaps_.cloth), room = distance - floor;
+    const double gap = gaps_.of_cloth(candidate);
+    const double floor = ContactTuning::floor * (has_body(candidate) ? ContactTuning::body_gap * gap : gap);
+    const double distance = std::min<double>(at.distance, gap), room = distance - floor;
     constexpr double nearly_all = ContactTuning::kept_of_scarce;
     if (room <= 0) return nearly_all * distance;
-    return floor + (room > 2 * margins.scarce ? std::max(margins.kept * room, margins.scarce) : nearly_all * room);
+    const double scarce = margins.scarce * gap;
+    return floor + (room > 2 * scarce ? std::max(margins.kept * room, scarce) : nearly_all * room);
 }
 
 void CcdFilter::refresh(const StraightStep& step)
 {
     const bool anew = tree_.cover(step.start.data(), step.displacement ? step.displacement->data() : nullptr,
-                                  step.stride, step.bodies, gaps_.cloth, body_reach_);
+                                  step.stride, step.bodies, gaps_.largest(), body_reach_);
     measure_distances(step, anew);
 }
 
@@ -102,12 +101,12 @@ void CcdFilter::measure_distances(const StraightStep& step, bool anew)
         PairDistance& at = distances_[k];
         at.approach = both_sides(displacement_);
         at.distance = anew ? candidate.distance : at.distance - both_sides(travelled_);
-        at.relevant = at.distance - at.approach < gaps_.cloth;
+        at.relevant = at.distance - at.approach < gaps_.largest();
         if (!at.relevant) return;
         if (!anew) at.distance = rounded_down(pair_distance(step.start_of(candidate), candidate.edges));
         if (step.displacement)
             at.approach = rounded_up(pair_approach(step.displacement_of(candidate), candidate.edges));
-        at.relevant = at.distance - at.approach < gaps_.cloth;
+        at.relevant = at.distance - at.approach < gaps_.largest();
     });
 }
 

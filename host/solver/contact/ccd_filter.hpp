@@ -3,23 +3,11 @@
 
 #include "host/collision/ccd.hpp"
 #include "host/collision/cloth_tree.hpp"
+#include "host/solver/contact/contact_gaps.hpp"
 #include "host/solver/contact/crossing_flags.hpp"
 #include "kernels/portable.h"
 
 namespace selvage {
-
-/// Distances at which contact sets in [m].
-struct ContactGaps {
-    double cloth = 0;  ///< Of cloth with cloth.
-    double body = 0;   ///< Of cloth with edges and corners of bodies, at most that of cloth.
-
-    /// Of a pair; 0 for a vertex of the cloth and a face of a body, which the body's contact plane presses on already.
-    double of(const PairCandidate& candidate) const
-    {
-        if (!has_body(candidate)) return cloth;
-        return candidate.edges || candidate.corner[0] < 0 ? body : 0;
-    }
-};
 
 /// A straight step of all corners: particles (index v >= 0) and corners of bodies (index -1 - k).
 struct StraightStep {
@@ -53,7 +41,7 @@ struct PairDistance {
 /// How much of their distance the pairs keep in a step; see ContactTuning.
 struct StepMargins {
     double kept = 0;    ///< Share of a pair's room above the floor [1].
-    double scarce = 0;  ///< Least room that is left [m].
+    double scarce = 0;  ///< Least room that is left, of the gap at which the pair's contact sets in [1].
 };
 
 /// What a filter takes from one refresh to the next.
@@ -74,8 +62,9 @@ struct CcdCounts {
 class CcdFilter {
 public:
     /// @param surface    of the cloth and the bodies   @param slack  of the tree's boxes [m]
-    /// @param body_reach distance up to which cloth is compared with bodies, at most gaps.cloth [m]
-    /// @param crossings  which pairs may cross; must outlive this object
+    /// @param gaps       must outlive this object, as must crossings
+    /// @param body_reach distance up to which cloth is compared with bodies, at most gaps.largest() [m]
+    /// @param crossings  which pairs may cross
     CcdFilter(TreeSurface surface, double slack, const ContactGaps& gaps, double body_reach,
               const CrossingFlags& crossings);
 
@@ -110,7 +99,7 @@ public:
 
     const std::vector<PairCandidate>& candidates() const { return tree_.candidates(); }
     const std::vector<PairDistance>& distances() const { return distances_; }  ///< Per candidate.
-    double gap() const { return gaps_.cloth; }                                 ///< [m]
+    const ContactGaps& gaps() const { return gaps_; }
 
     /// Treats particles as at rest. @param is_awake  per particle; null: all move
     void let_sleep(const std::vector<char>* is_awake) { tree_.let_sleep(is_awake); }
@@ -132,7 +121,7 @@ private:
     void measure_distances(const StraightStep& step, bool anew);
     float free_fraction_of(int candidate, const StraightStep& step, const StepMargins& margins, float enough) const;
 
-    ContactGaps gaps_;
+    const ContactGaps& gaps_;
     double body_reach_;
     int particles_;
     const CrossingFlags& crossings_;

@@ -25,12 +25,10 @@ TreeSurface whole_surface(const Topology& topology, const Cloth& cloth, const st
     return surface;
 }
 
-ContactGaps contact_gaps(double gap) { return {gap, ContactTuning::body_gap * gap}; }
-
 // What moving bodies push goes along with them: it has to be known from where vertices are pressed on.
 double body_reach(const ContactGaps& gaps, const MovingBoundary& boundary)
 {
-    return boundary.moves() ? gaps.cloth : gaps.body;
+    return boundary.moves() ? gaps.largest() : gaps.largest_of_bodies();
 }
 
 // A third of the rest area of every adjacent face.
@@ -48,12 +46,13 @@ std::vector<double> particle_areas(const Topology& topology, const Cloth& cloth)
 
 }  // namespace
 
-ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
-                           std::vector<double> friction)
-    : boundary_(touchable(bodies, cloth)), tangles_(topology.faces, topology.particle_count, boundary_.bodies()),
+ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies,
+                           ContactGaps gaps, std::vector<double> friction)
+    : gaps_(std::move(gaps)), boundary_(touchable(bodies, cloth)),
+      tangles_(topology.faces, topology.particle_count, boundary_.bodies()),
       filter_(whole_surface(topology, cloth, boundary_.bodies()), ContactTuning::tree_slack * typical_edge(cloth),
-              contact_gaps(gap), body_reach(contact_gaps(gap), boundary_), tangles_.flags()),
-      pairs_(contact_gaps(gap), particle_areas(topology, cloth), std::move(friction))
+              gaps_, body_reach(gaps_, boundary_), tangles_.flags()),
+      pairs_(gaps_, particle_areas(topology, cloth), std::move(friction))
 {
 }
 

@@ -4,6 +4,7 @@
 #include "host/model/body.hpp"
 #include "host/model/cloth.hpp"
 #include "host/solver/contact/ccd_filter.hpp"
+#include "host/solver/contact/contact_gaps.hpp"
 #include "host/solver/contact/contact_pairs.hpp"
 #include "host/solver/contact/moving_boundary.hpp"
 #include "host/solver/contact/tangles.hpp"
@@ -31,9 +32,9 @@ struct ClothContactCounts {
 class ClothContact {
 public:
     /// @param bodies    those that can be touched; left out are those that cloth is clear of whose vertices are
-    /// @param gap       distance at which contact sets in [m]
+    /// @param gaps      distances at which contact sets in
     /// @param friction  per particle [1]
-    ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, double gap,
+    ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, ContactGaps gaps,
                  std::vector<double> friction);
     ClothContact(const ClothContact&) = delete;  // its parts refer to each other
 
@@ -97,7 +98,7 @@ public:
     /// True if anything may have come near the cloth on the last step that was filtered.
     bool has_candidates() const { return !filter_.candidates().empty(); }
     ClothContactCounts counts() const;
-    std::size_t bytes() const { return filter_.bytes() + pairs_.bytes() + boundary_.bytes(); }
+    std::size_t bytes() const { return gaps_.bytes() + filter_.bytes() + pairs_.bytes() + boundary_.bytes(); }
 
 private:
     void list_pairs(State& state)
@@ -105,6 +106,7 @@ private:
         pairs_.list(state, boundary_.corners(), filter_.candidates(), filter_.within_gap());
     }
 
+    ContactGaps gaps_;
     MovingBoundary boundary_;
     Tangles tangles_;
     CcdFilter filter_;

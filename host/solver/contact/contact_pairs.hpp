@@ -17,6 +17,7 @@ namespace selvage {
 /// memory are matched in one pass, and a pair finds its friction again though it has been left out of lists in between.
 class ContactPairs {
 public:
+    /// @param gaps      must outlive this object
     /// @param area      rest area per particle [m^2]
     /// @param friction  Coulomb coefficient per particle [1]
     ContactPairs(const ContactGaps& gaps, std::vector<double> area, std::vector<double> friction);
@@ -46,7 +47,7 @@ private:
     void recall(State& state) const;
     void remember(const State& state);
 
-    ContactGaps gaps_;
+    const ContactGaps& gaps_;
     std::vector<double> area_, friction_;  // per particle
     FrictionMemory memory_;
 };

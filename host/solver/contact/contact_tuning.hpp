@@ -3,7 +3,8 @@
 namespace selvage {
 
 /// The tuned constants of contact between cloth and cloth, and of faces and edges of the cloth with bodies. "By hand"
-/// means that the value has not been measured against others. Units: [1], or of the gap at which contact sets in.
+/// means that the value has not been measured against others. Units: [1], or of the gap at which the pair's contact
+/// sets in.
 struct ContactTuning {
     // What the CCD step filter leaves: of its room above the floor, a pair keeps a share or the scarce room, whichever
     // is more, and nearly all of a room that is scarce already.
@@ -26,6 +27,10 @@ struct ContactTuning {
     static constexpr double tree_slack = 0.1;
 
     // Pairs.
+
+    // Where contact of cloth with cloth sets in at most, of the mean edge of its piece and of the distance at rest of
+    // the two sides: neighbours in a panel must not press on each other, also where it is bent and compressed. By hand.
+    static constexpr double gap_of_edge = 0.4, gap_of_rest = 0.8;
 
     // [gap] Where edges and corners of bodies press on the cloth. Further out the contact planes of vertices do, which
     // cost less; by hand.

@@ -79,8 +79,8 @@ void MovingBoundary::carry_along(const State& state, const CcdFilter& filter, co
     std::vector<int> nearest(std::size_t(state.size.vertex_count), -1);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const auto& c = candidates[k].corner;
-        if (!distances[k].relevant || distances[k].distance > filter.gap()) continue;
-        if (std::max(c[0], c[3]) < 0 || !has_body(candidates[k])) continue;
+        if (!distances[k].relevant || std::max(c[0], c[3]) < 0 || !has_body(candidates[k])) continue;
+        if (distances[k].distance > filter.gaps().of_cloth(candidates[k])) continue;
         for (int v : c)
             if (v >= 0 && (nearest[v] < 0 || distances[k].distance < distances[nearest[v]].distance))
                 nearest[v] = int(k);

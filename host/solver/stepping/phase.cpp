@@ -37,9 +37,10 @@ Surroundings surroundings(const ClothModel& model, const PhaseOptions& options, 
                                                            meets_itself(options.params));
     if (meets_itself(options.params)) {
         const TraceScope scope("cloth_tree");
-        around.cloth = std::make_unique<ClothContact>(topology, model.cloth, query ? model.bodies : std::vector<Body>{},
-                                                      cloth_gap(options.params),
-                                                      particle_friction(topology, model.cloth, model.fabrics));
+        around.cloth =
+            std::make_unique<ClothContact>(topology, model.cloth, query ? model.bodies : std::vector<Body>{},
+                                           ContactGaps(topology, model.cloth, model.fabrics, cloth_gap(options.params)),
+                                           particle_friction(topology, model.cloth, model.fabrics));
     }
     if (around.cloth && around.bodies)
         around.bodies->lift(around.cloth->crossings().pierced, lift_of_edge * edge_length);

@@ -44,7 +44,7 @@ inline double body_gap(const Params& p)
     return p.body_repulsion.stiffness > 0 ? p.body_repulsion.gap : p.body_contact.gap;
 }
 
-/// Distance at which contact of cloth with cloth sets in under the law in use [m].
+/// Distance at which contact of cloth with cloth sets in under the law in use, as far as no place needs another [m].
 inline double cloth_gap(const Params& p)
 {
     return p.cloth_repulsion.stiffness > 0 ? p.cloth_repulsion.gap : p.cloth_contact.gap;

@@ -38,7 +38,7 @@ struct FilteredSheets {
     CcdFilter filter;
 
     FilteredSheets(Cloth of, double gap, double spacing, const std::vector<Body>& bodies = {})
-        : cloth(std::move(of)), gaps{gap, ContactTuning::body_gap * gap}, topology(make_topology(cloth, false)),
+        : cloth(std::move(of)), gaps(gap), topology(make_topology(cloth, false)),
           state(make_state(topology, cloth, test_fabrics(), contact_alone(gap), cloth.positions, {})),
           crossings(std::size_t(topology.particle_count)), corners(surface(bodies).body_corners),
           filter(surface(bodies), ContactTuning::tree_slack * spacing, gaps, gap, crossings)

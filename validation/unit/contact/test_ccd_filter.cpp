@@ -101,7 +101,7 @@ TEST_CASE("a step of a body is free up to the cloth in its way", "[ccd_filter]")
     const StraightStep step{sheet.state.pos, &none, sheet.stride(), {sheet.corners, &rise, 0}};
     sheet.filter.refresh(step);
     const double left = 2 * gap - length * sheet.filter.free_fraction(step, sheet.filter.margins());
-    const double least = least_distance(gap, sheet.gaps.body, ContactTuning::kept);
+    const double least = least_distance(gap, sheet.gaps.largest_of_bodies(), ContactTuning::kept);
     CHECK(left >= least);
     CHECK(left <= least + 0.02 * (2 * gap - least));
 }

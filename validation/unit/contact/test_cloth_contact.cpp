@@ -26,7 +26,7 @@ struct Pile {
     explicit Pile(Cloth of, std::vector<Body> with = {})
         : cloth(std::move(of)), bodies(std::move(with)), topology(make_topology(cloth, false)),
           state(make_state(topology, cloth, test_fabrics(), params, cloth.positions, {})),
-          contact(topology, cloth, bodies, gap, particle_friction(topology, cloth, test_fabrics()))
+          contact(topology, cloth, bodies, ContactGaps(gap), particle_friction(topology, cloth, test_fabrics()))
     {
         contact.begin(state);
     }

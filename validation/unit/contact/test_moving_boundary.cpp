@@ -48,7 +48,7 @@ TEST_CASE("a body stops where held cloth is in its way, and what is told of its 
     boundary.advance(sheet.state, sheet.filter, nobody_follows);
     CHECK(boundary.is_pending());
     CHECK(sheet.state.pos == start);
-    const double least = least_distance(gap, sheet.gaps.body, ContactTuning::held_kept);
+    const double least = least_distance(gap, sheet.gaps.largest_of_bodies(), ContactTuning::held_kept);
     CHECK(-top_of(boundary) >= least);
     CHECK(-top_of(boundary) <= least + 0.02 * (distance - least));
     CHECK(told * length == Approx(distance + top_of(boundary)));  // it rises at a steady speed

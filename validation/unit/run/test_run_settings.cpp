@@ -54,7 +54,7 @@ TEST_CASE("the integrators of a drape name the one that takes over on the way to
     CHECK(names("builtin:hanging", {}) == Names{"static"});
 }
 
-TEST_CASE("cloth does not press on its own neighbours where a triangle is narrower than the fabric is thick")
+TEST_CASE("the narrowest triangle of a mesh is told, with what it does to contact beside it")
 {
     // Columns of 3 cm, 30 um and 10 um: some vertices without a common triangle are nearer than cotton is thick.
     const double columns[] = {0, 0.03, 0.03003, 0.06, 0.06001, 0.09};
@@ -69,19 +69,7 @@ TEST_CASE("cloth does not press on its own neighbours where a triangle is narrow
     const std::string file = folder.write("scene.toml", "[[sheet]]\nshape = \"mesh\"\nmesh = \"slivers.obj\"\n");
     const Scene scene = read_scene(file, std::vector<std::string>{});
     const SceneModel model = build_scene_model(scene);
-    CHECK(model.least_height == Approx(1e-5).epsilon(1e-2));
     REQUIRE(!model.findings.empty());
-    CHECK(phase_options(scene, model, false).params.cloth_contact.gap == Approx(0.8 * model.least_height));
-    CHECK(describe(model.findings[0]).find("1e-05 m high") != std::string::npos);
-}
-
-TEST_CASE("with triangles of ordinary shape the gap of cloth on cloth is the one in the scene")
-{
-    for (const char* family : {"alternating", "equilateral", "irregular"}) {
-        const std::vector<std::string> overrides = {"sheet.resolution=33", std::string("sheet.mesh_family=") + family};
-        const Scene scene = read_scene("builtin:hanging", overrides);
-        const SceneModel model = build_scene_model(scene);
-        CHECK(model.findings.empty());
-        CHECK(phase_options(scene, model, false).params.cloth_contact.gap == scene.contact.gap);
-    }
+    CHECK_THAT(describe(model.findings[0]), contains_text("1e-05 m high"));
+    CHECK_THAT(describe(model.findings[0]), contains_text("cloth beside it presses"));
 }
