@@ -2,17 +2,17 @@
 
 namespace selvage {
 
-void Profile::add(std::string_view name, double seconds, std::int64_t items, std::int64_t bytes)
+void Profile::add(const KernelRecord& calls)
 {
     for (KernelRecord& record : records_)
-        if (record.name == name) {
-            ++record.calls;
-            record.seconds += seconds;
-            record.items += items;
-            record.bytes += bytes;
+        if (record.name == calls.name) {
+            record.calls += calls.calls;
+            record.spent = record.spent + calls.spent;
+            record.items += calls.items;
+            record.bytes += calls.bytes;
             return;
         }
-    records_.push_back({std::string(name), 1, seconds, items, bytes});
+    records_.push_back(calls);
 }
 
 }  // namespace selvage

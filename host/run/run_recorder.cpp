@@ -289,7 +289,8 @@ std::vector<Finding> RunRecorder::conclude(RunStatus status, const LastState& la
     s.linear_iterations = counters.linear_iterations;
     s.simulated_s = counters.simulated;
     for (const auto& [name, seconds] : counters.phases) s.phases.push_back({name, seconds});
-    for (const KernelRecord& k : profile.records()) s.kernels.push_back({k.name, k.calls, k.seconds, k.items, k.bytes});
+    for (const KernelRecord& k : profile.records())
+        s.kernels.push_back({k.name, k.calls, k.spent.wall, k.spent.processor, k.items, k.bytes});
     s.integrators = counters.integrators;
     s.active = plan.active;
     for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});

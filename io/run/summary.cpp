@@ -23,6 +23,7 @@ Json kernels_json(const RunSummary& summary)
         list.push_back({{"name", kernel.name},
                         {"calls", kernel.calls},
                         {"seconds", number(kernel.seconds)},
+                        {"processor_seconds", number(kernel.processor_seconds)},
                         {"items", kernel.items},
                         {"bytes", kernel.bytes}});
     return list;

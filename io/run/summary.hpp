@@ -24,9 +24,10 @@ std::optional<RunStatus> read_status(const std::string& path);
 struct KernelUse {
     std::string name;
     std::int64_t calls = 0;
-    double seconds = 0;
-    std::int64_t items = 0;  ///< Items processed in all calls.
-    std::int64_t bytes = 0;  ///< Bytes read and written in all calls.
+    double seconds = 0;            ///< Wall time.
+    double processor_seconds = 0;  ///< Of all threads.
+    std::int64_t items = 0;        ///< Items processed in all calls.
+    std::int64_t bytes = 0;        ///< Bytes read and written in all calls.
 };
 
 /// A feature that did not run, with the reason.
