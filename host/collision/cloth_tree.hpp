@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "host/parallel/stopwatch.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
@@ -15,7 +16,7 @@ namespace selvage {
 struct PairCandidate {
     std::array<int, 4> corner{};  ///< A vertex and a face's three, or the ends of two edges.
     bool edges = false;
-    float distance = 0;  ///< At the start of the searched move, rounded down [m].
+    float distance = 0;  ///< At the start of the move that it was found for, a lower bound [m].
 };
 
 /// The faces over which a tree is built. Faces of bodies have corners below zero; see PairCandidate.
@@ -47,10 +48,18 @@ struct TreeMemory {
     std::vector<int> skipped;               ///< Subtrees that the search skipped as flat.
     std::vector<PairCandidate> candidates;  ///< In their order.
     std::vector<PairCandidate> asleep;      ///< Those all of whose corners sleep.
+    int partial = 0;                        ///< Partial searches since the last one for all corners.
+};
+
+struct SearchCounts {
+    long long searches = 0;  ///< Traversals.
+    long long measured = 0;  ///< Pairs whose distance they measured.
+    TimeSpent spent;         ///< In them.
 };
 
 struct TreeCounts {
-    long long searches = 0;      ///< Traversals of the tree.
+    SearchCounts whole;          ///< For all corners.
+    SearchCounts partial;        ///< Only for those that had left their searched moves.
     long long reused = 0;        ///< Calls in which the last candidates were proved to be still complete.
     long long flat_skipped = 0;  ///< Subtrees that traversals skipped since they cannot meet themselves.
 };
@@ -73,6 +82,10 @@ struct TreeCounts {
 /// A new move needs no search under two conditions. First, at its start, and again at its end, every corner is within
 /// its slack of its position at some moment of the searched move, which is the same moment for all corners; positions
 /// are relative to a frame that moves with the cloth. Second, every skipped subtree still passes the test of flatness.
+///
+/// Where only some corners fail, a partial search looks for the pairs of these alone. The searched moves of the others
+/// are cut to the part that they make now, so that one moment is again the same for all corners: what keeps apart on a
+/// move keeps apart on a part of it, so pairs without a marked corner need not be looked at.
 class ClothTree {
 public:
     /// @param slack  distance by which corners may deviate from the searched move without a new search [m]
@@ -93,6 +106,8 @@ public:
     void let_sleep(const std::vector<char>* is_awake);
 
     const std::vector<PairCandidate>& candidates() const { return candidates_; }
+    /// Where the first candidates stood before the last call of cover that changed them; the others are new.
+    const std::vector<int>& kept_from() const { return kept_from_; }
     const TreeCounts& counts() const { return counts_; }
     std::size_t body_corner_count() const { return start_.size() - std::size_t(particles_); }
     void forget() { valid_ = false; }  ///< Makes the next call of cover search.
@@ -133,6 +148,11 @@ private:
     };
     using NodePair = std::array<int, 2>;
     static constexpr int leaf_faces = 4;  // at most; affects speed only; chosen by hand, not measured
+    struct Findings {                     // of a piece of a traversal
+        std::vector<PairCandidate> candidates;
+        std::vector<int> skipped;  // nodes
+        long long measured = 0;    // pairs
+    };
     struct FacesNear {
         std::array<int, leaf_faces> face;
         int count = 0;
@@ -148,18 +168,22 @@ private:
     Cell part_of(const PatchBuild& build, const Cell& cell, const Vec2& low, const Vec2& high) const;
     void own_primitives();
     void set_frame(const double* from, const double* move, int stride, const TreeBodies& bodies);
-    bool still_complete(const TreeBodies& bodies, double reach, double body_reach) const;
+    enum class Unknown { nothing, marked, all };
+    enum Mark : char { deviates = 1, was_skipped = 2 };
+    Unknown mark_unknown();
+    void search_anew(int k, bool still);
     double fitted_fraction(const std::vector<Vec3>& at) const;
     void add_gradient(Gradients& range, int face, const std::array<Vec3, 3>& corners) const;
     bool lies_flat(const double* from, const double* move, int stride) const;
     void refit_gradients();
     void refit_boxes(bool bodies_move, bool bodies_too);
-    void search();
-    void visit(NodePair pair, std::vector<NodePair>& stack, std::vector<int>& skipped,
-               std::vector<PairCandidate>& found) const;
+    void search_all();
+    void search_marked();
+    void traverse(SearchCounts& counts);
+    void visit(NodePair pair, std::vector<NodePair>& stack, Findings& found) const;
     FacesNear faces_near(const Node& leaf, const Sweep& box) const;
-    void offer_pairs(int face_a, int face_b, std::vector<PairCandidate>& found) const;
-    void offer(const PairCandidate& candidate, std::vector<PairCandidate>& found) const;
+    void offer_pairs(int face_a, int face_b, Findings& found) const;
+    void offer(const PairCandidate& candidate, Findings& found) const;
     bool may_touch(const PairCandidate& candidate) const;
     bool sleeps(int corner) const { return corner < 0 || !is_awake_[corner]; }
     bool sleeps(const PairCandidate& candidate) const
@@ -167,6 +191,11 @@ private:
         return std::all_of(candidate.corner.begin(), candidate.corner.end(), [this](int c) { return sleeps(c); });
     }
     void add_sleeping_candidates();
+    bool is_marked(int corner) const { return corner >= 0 && marks_[corner]; }
+    bool is_marked(const PairCandidate& candidate) const
+    {
+        return std::any_of(candidate.corner.begin(), candidate.corner.end(), [this](int c) { return is_marked(c); });
+    }
     int slot(int corner) const { return corner >= 0 ? corner : particles_ - 1 - corner; }
     bool is_body(int node) const { return nodes_[node].patch >= 0 && !surface_.patches[nodes_[node].patch].flat; }
     bool is_flat(int node, double threshold) const
@@ -186,11 +215,17 @@ private:
     std::vector<std::array<double, 4>> rest_inverse_;
 
     std::vector<Vec3> start_, end_;                    // of each corner in the moving frame, particles first
-    std::vector<Vec3> searched_start_, searched_end_;  // the same when the candidates were searched
+    std::vector<Vec3> searched_start_, searched_end_;  // the same of the moves that the candidates are complete for
     std::vector<float> slack_of_;                      // of each corner [m]
     std::vector<Sweep> corner_box_, edge_box_, face_box_, node_box_;
     std::vector<Gradients> face_gradients_, node_gradients_;
-    std::vector<int> skipped_;    // nodes skipped as flat
+    std::vector<int> skipped_;  // nodes skipped as flat
+    // Of a partial search: why particles are looked at, and what has such corners.
+    std::vector<char> marks_, face_marks_, node_marks_;
+    std::vector<char> node_skipped_;  // per node, in a partial search
+    std::vector<int> kept_from_;
+    int partial_since_ = 0;       // partial searches since the last one for all corners
+    bool partial_ = false;        // the search that runs
     std::vector<char> is_awake_;  // per particle; empty: all are
     std::vector<char> face_sleeps_, node_sleeps_;
     std::vector<PairCandidate> asleep_;  // candidates all of whose corners sleep

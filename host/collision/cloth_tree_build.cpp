@@ -67,6 +67,8 @@ ClothTree::ClothTree(TreeSurface surface, double slack)
     if (!surface_.patches.empty()) build_patches(0, int(surface_.patches.size()));
     start_.resize(corners);
     end_.resize(corners);
+    searched_start_.resize(corners);
+    searched_end_.resize(corners);
     slack_of_.resize(corners);
     corner_box_.resize(corners);
     edge_box_.resize(edges_.size());

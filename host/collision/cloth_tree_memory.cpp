@@ -16,6 +16,7 @@ TreeMemory ClothTree::memory(const TreeBodies& bodies) const
     memory.slack.assign(slack_of_.begin(), slack_of_.begin() + particles_);
     memory.skipped = skipped_;
     memory.candidates = candidates_;
+    memory.partial = partial_since_;
     return memory;
 }
 
@@ -37,6 +38,7 @@ void ClothTree::set_memory(TreeMemory memory)
         throw std::invalid_argument("the memory of a tree over another surface");
     asleep_ = std::move(memory.asleep);
     valid_ = memory.valid;
+    partial_since_ = memory.partial;
     if (!valid_) return;
     std::copy(memory.start.begin(), memory.start.end(), searched_start_.begin());
     std::copy(memory.end.begin(), memory.end.end(), searched_end_.begin());

@@ -1,5 +1,6 @@
 #include "host/run/phase_memory.hpp"
 
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -54,6 +55,7 @@ void save_searches(const CheckpointSaver& save, const CcdMemory& memory, bool wh
     save("searches.end", memory.tree.end);
     save("searches.slack", memory.tree.slack);
     save("searches.skipped", memory.tree.skipped);
+    save("searches.partial", memory.tree.partial);
     save_candidates(save, "searches.found", memory.tree.candidates);
     std::vector<float> distance, approach;
     std::vector<char> relevant;
@@ -79,13 +81,15 @@ CcdMemory searches_of(const CheckpointLoader& load)
     const std::vector<double>& slack = load.reals("searches.slack");
     memory.tree.slack.assign(slack.begin(), slack.end());
     memory.tree.skipped = load.integers("searches.skipped");
+    memory.tree.partial = load.integer("searches.partial", 0, std::numeric_limits<int>::max() - 1);
     memory.tree.candidates = candidates_of(load, "searches.found");
     const std::size_t count = memory.tree.candidates.size();
     const std::vector<double>&distance = load.reals("searches.distance", count),
           &approach = load.reals("searches.approach", count);
     const std::vector<char> relevant = load.flags("searches.relevant", count);
     for (std::size_t k = 0; k < count; ++k)
-        memory.distances.push_back({float(distance[k]), float(approach[k]), relevant[k] != 0});
+        memory.distances.push_back(
+            {float(distance[k]), float(approach[k]), float(distance[k] - approach[k]), relevant[k] != 0});
     memory.position = load.vectors("searches.position");
     return memory;
 }
@@ -101,7 +105,16 @@ void save_cloth_contact(const CheckpointSaver& save, const ClothContact& contact
     save_searches(save, contact.searches(), whole);
 }
 
-FrictionMemory friction_of(const CheckpointLoader& load)
+// Pairs that friction remembers are listed wherever they are, so they must be of this cloth.
+void check_corners(const CheckpointLoader& load, const FrictionMemory& memory, const State& state)
+{
+    for (const PairFriction& friction : memory)
+        for (int v : friction.pair.corner)
+            if (v >= state.size.vertex_count || v < -state.size.body_point_count)
+                load.refuse("pair_keys", fmt::format("{}", v), "a vertex of the cloth, or a corner of a body below 0");
+}
+
+FrictionMemory friction_of(const CheckpointLoader& load, const State& state)
 {
     const std::vector<int>& keys = load.integers("pair_keys");
     const std::vector<double>& values = load.reals("pair_memory");
@@ -110,6 +123,7 @@ FrictionMemory friction_of(const CheckpointLoader& load)
         load.refuse("pair_memory", fmt::format("{} keys and {} values", keys.size(), values.size()),
                     fmt::format("{} keys and {} values for each pair in contact, pairs in ascending order",
                                 PackedFriction::keys_per_pair, PackedFriction::values_per_pair));
+    check_corners(load, *memory, state);
     return std::move(*memory);
 }
 
@@ -225,7 +239,7 @@ void load_cloth_contact(const CheckpointLoader& load, System& system)
     crossings.tangled = load.flags("cloth_tangled", particles);
     crossings.pierced = load.flags("cloth_pierced", particles);
     contact.set_crossings(std::move(crossings));
-    contact.set_memory(friction_of(load));
+    contact.set_memory(friction_of(load, system.state()));
 }
 
 void load_searches(const CheckpointLoader& load, System& system)

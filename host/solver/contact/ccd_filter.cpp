@@ -48,9 +48,9 @@ double CcdFilter::least_distance(const PairCandidate& candidate, const PairDista
 
 void CcdFilter::refresh(const StraightStep& step)
 {
-    const bool anew = tree_.cover(step.start.data(), step.displacement ? step.displacement->data() : nullptr,
-                                  step.stride, step.bodies, gaps_.largest(), body_reach_);
-    measure_distances(step, anew);
+    const bool changed = tree_.cover(step.start.data(), step.displacement ? step.displacement->data() : nullptr,
+                                     step.stride, step.bodies, gaps_.largest(), body_reach_);
+    measure_distances(step, changed);
 }
 
 // How far each corner has travelled since the last refresh and is to go now, but for what the whole cloth has in
@@ -82,10 +82,14 @@ void CcdFilter::measure_displacements(const StraightStep& step)
 }
 
 // Measures those candidates that may come within the gap on the step; of the others a bound is enough to know that
-// they do not.
-void CcdFilter::measure_distances(const StraightStep& step, bool anew)
+// they do not. What is measured, and what counts as relevant, does not depend on when a candidate was found.
+void CcdFilter::measure_distances(const StraightStep& step, bool changed)
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
+    const std::vector<int>& kept_from = tree_.kept_from();
+    const std::size_t kept = changed ? kept_from.size() : candidates.size();
+    if (changed)
+        for (std::size_t k = 0; k < kept; ++k) distances_[k] = distances_[kept_from[k]];
     distances_.resize(candidates.size());
     ++counts_.refreshes;
     if (candidates.empty()) return;
@@ -99,14 +103,24 @@ void CcdFilter::measure_distances(const StraightStep& step, bool anew)
                                    : of[c[0]] + std::max({of[c[1]], of[c[2]], of[c[3]]});
         };
         PairDistance& at = distances_[k];
-        at.approach = both_sides(displacement_);
-        at.distance = anew ? candidate.distance : at.distance - both_sides(travelled_);
-        at.relevant = at.distance - at.approach < gaps_.largest();
+        const float displaced = both_sides(displacement_);
+        const double reach = reach_of(candidate);
+        at.approach = displaced;
+        at.distance =
+            std::size_t(k) < kept ? rounded_down(double(at.distance) - both_sides(travelled_)) : candidate.distance;
+        at.apart = rounded_down(double(at.distance) - displaced);
+        at.relevant = at.apart < reach;
         if (!at.relevant) return;
-        if (!anew) at.distance = rounded_down(pair_distance(step.start_of(candidate), candidate.edges));
-        if (step.displacement)
-            at.approach = rounded_up(pair_approach(step.displacement_of(candidate), candidate.edges));
-        at.relevant = at.distance - at.approach < gaps_.largest();
+        const PairCorners x = step.start_of(candidate);
+        const Vec3 difference = pair_difference(x, candidate.edges);
+        at.distance = at.apart = rounded_down(difference.norm());
+        if (step.displacement) {
+            const PairCorners displacement = step.displacement_of(candidate);
+            at.approach = rounded_up(pair_approach(displacement, candidate.edges));
+            const double by_lengths = double(at.distance) - std::min(displaced, at.approach);
+            at.apart = rounded_down(std::max(by_lengths, kept_apart(x, displacement, candidate.edges, difference)));
+        }
+        at.relevant = at.apart < reach;
     });
 }
 
@@ -117,7 +131,7 @@ float CcdFilter::free_fraction_of(int k, const StraightStep& step, const StepMar
     if (!at.relevant) return 1;
     const PairCandidate& candidate = tree_.candidates()[k];
     const double least = least_distance(candidate, at, margins);
-    if (at.approach < at.distance - least || crossings_.may_cross(candidate)) return 1;
+    if (at.apart > least || crossings_.may_cross(candidate)) return 1;
     const double fraction = selvage::free_fraction(step.start_of(candidate), step.displacement_of(candidate),
                                                    candidate.edges, at.distance, at.approach, least, enough);
     return fraction < 1 ? rounded_down(fraction) : 1;
@@ -188,15 +202,15 @@ bool CcdFilter::is_free(const StraightStep& step)
     return free_fraction(step, margins()) == 1;
 }
 
-std::vector<int> CcdFilter::within_gap() const
+std::vector<PairCandidate> CcdFilter::within_gap() const
 {
     const std::vector<PairCandidate>& candidates = tree_.candidates();
-    std::vector<int> result;
+    std::vector<PairCandidate> result;
     for (int k = 0; k < int(candidates.size()); ++k) {
         const PairDistance& at = distances_[k];
         if (!at.relevant) continue;
         const double gap = gaps_.of(candidates[k]);
-        if (gap > 0 && at.distance - at.approach < gap && !crossings_.may_cross(candidates[k])) result.push_back(k);
+        if (gap > 0 && at.apart < gap && !crossings_.may_cross(candidates[k])) result.push_back(candidates[k]);
     }
     return result;
 }

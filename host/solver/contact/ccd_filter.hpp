@@ -35,7 +35,8 @@ struct StraightStep {
 struct PairDistance {
     float distance = 0;     ///< At the start, a lower bound; exact where `relevant` [m].
     float approach = 0;     ///< How far the two sides may come nearer, an upper bound [m].
-    bool relevant = false;  ///< The pair may come within the gap.
+    float apart = 0;        ///< How far apart they stay during the step, a lower bound [m].
+    bool relevant = false;  ///< The pair may come as near as it is looked for. Depends on nothing but place and step.
 };
 
 /// How much of their distance the pairs keep in a step; see ContactTuning.
@@ -94,8 +95,8 @@ public:
     /// Refreshes for a step that has been taken already; returns true if nothing is passed through on it.
     bool is_free(const StraightStep& step);
 
-    /// Returns the indices of those candidates that are within their gap, or may come to be on the step.
-    std::vector<int> within_gap() const;
+    /// Returns those candidates that are within their gap, or may come to be on the step.
+    std::vector<PairCandidate> within_gap() const;
 
     const std::vector<PairCandidate>& candidates() const { return tree_.candidates(); }
     const std::vector<PairDistance>& distances() const { return distances_; }  ///< Per candidate.
@@ -112,13 +113,18 @@ public:
     void set_memory(CcdMemory memory);
 
     const CcdCounts& counts() const { return counts_; }
+    const TreeCounts& searches() const { return tree_.counts(); }
     std::size_t bytes() const;
 
 private:
     int slot(int corner) const { return corner >= 0 ? corner : particles_ - 1 - corner; }
     double least_distance(const PairCandidate& candidate, const PairDistance& at, const StepMargins& margins) const;
     void measure_displacements(const StraightStep& step);
-    void measure_distances(const StraightStep& step, bool anew);
+    void measure_distances(const StraightStep& step, bool changed);
+    double reach_of(const PairCandidate& candidate) const
+    {
+        return has_body(candidate) ? body_reach_ : gaps_.largest();
+    }
     float free_fraction_of(int candidate, const StraightStep& step, const StepMargins& margins, float enough) const;
 
     const ContactGaps& gaps_;

@@ -98,13 +98,11 @@ public:
     /// True if anything may have come near the cloth on the last step that was filtered.
     bool has_candidates() const { return !filter_.candidates().empty(); }
     ClothContactCounts counts() const;
+    const TreeCounts& search_counts() const { return filter_.searches(); }
     std::size_t bytes() const { return gaps_.bytes() + filter_.bytes() + pairs_.bytes() + boundary_.bytes(); }
 
 private:
-    void list_pairs(State& state)
-    {
-        pairs_.list(state, boundary_.corners(), filter_.candidates(), filter_.within_gap());
-    }
+    void list_pairs(State& state) { pairs_.list(state, boundary_.corners(), filter_.within_gap(), tangles_.flags()); }
 
     ContactGaps gaps_;
     MovingBoundary boundary_;

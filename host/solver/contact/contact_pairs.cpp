@@ -1,6 +1,7 @@
 #include "host/solver/contact/contact_pairs.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -20,6 +21,8 @@ PairKey key_of(const State& state, int pair)
     for (int i = 0; i < 4; ++i) key.corner[i] = state.pair_vertex[i * state.size.pair_stride + pair];
     return key;
 }
+
+bool by_key(const PairCandidate& a, const PairCandidate& b) { return key_of(a) < key_of(b); }
 
 PairFriction friction_in(const State& state, int pair)
 {
@@ -112,19 +115,30 @@ double ContactPairs::friction_of(const PairKey& pair) const
     return sum / std::max(of_cloth, 1);
 }
 
-void ContactPairs::list(State& state, const TreeBodies& bodies, const std::vector<PairCandidate>& candidates,
-                        std::vector<int> listed) const
+// @param near  in ascending order of their keys
+std::vector<PairCandidate> ContactPairs::with_friction(const std::vector<PairCandidate>& near,
+                                                       const CrossingFlags& crossings) const
 {
-    tbb::parallel_sort(listed.begin(), listed.end(), [&](int a, int b) {
-        const PairCandidate &p = candidates[a], &q = candidates[b];
-        return p.edges != q.edges ? p.edges < q.edges : p.corner < q.corner;
-    });
-    const int count = int(listed.size());
+    std::vector<PairCandidate> held, all;
+    for (const PairFriction& friction : memory_) {
+        const PairCandidate pair{friction.pair.corner, friction.pair.edges};
+        if (!crossings.may_cross(pair)) held.push_back(pair);
+    }
+    std::set_union(near.begin(), near.end(), held.begin(), held.end(), std::back_inserter(all), by_key);
+    return all;
+}
+
+void ContactPairs::list(State& state, const TreeBodies& bodies, std::vector<PairCandidate> near,
+                        const CrossingFlags& crossings) const
+{
+    tbb::parallel_sort(near.begin(), near.end(), by_key);
+    const std::vector<PairCandidate> pairs = with_friction(near, crossings);
+    const int count = int(pairs.size());
     state.set_pairs(count);
     const int ps = state.size.pair_stride;
     const StraightStep at{state.pos, nullptr, state.size.vertex_stride, bodies};
     for_each_item(count, [&, this](int p) {
-        const PairCandidate& candidate = candidates[listed[p]];
+        const PairCandidate& candidate = pairs[p];
         for (int i = 0; i < 4; ++i) state.pair_vertex[i * ps + p] = candidate.corner[i];
         state.pair_edges[p] = candidate.edges;
         state.pair_area[p] = area_of(candidate, at);

@@ -22,11 +22,13 @@ public:
     /// @param friction  Coulomb coefficient per particle [1]
     ContactPairs(const ContactGaps& gaps, std::vector<double> area, std::vector<double> friction);
 
-    /// Writes pairs to the state, with what friction remembers of them. Areas are those at state.pos.
-    /// @param bodies  where their corners are
-    /// @param listed  indices of those candidates that are to be pairs, in any order
-    void list(State& state, const TreeBodies& bodies, const std::vector<PairCandidate>& candidates,
-              std::vector<int> listed) const;
+    /// Writes pairs to the state, with what friction remembers of them. Areas are those at state.pos. Pairs that
+    /// friction remembers are among them wherever they are now, so that the friction of a step depends on no search.
+    /// @param bodies     where their corners are
+    /// @param near       the pairs that may be in contact, in any order
+    /// @param crossings  which of those that friction remembers are to be left out
+    void list(State& state, const TreeBodies& bodies, std::vector<PairCandidate> near,
+              const CrossingFlags& crossings) const;
 
     /// Ends a step for friction: bristles slip, limits follow the normal forces, and both are remembered of those pairs
     /// whose limit is above zero.
@@ -42,6 +44,8 @@ public:
     }
 
 private:
+    std::vector<PairCandidate> with_friction(const std::vector<PairCandidate>& near,
+                                             const CrossingFlags& crossings) const;
     double area_of(const PairCandidate& candidate, const StraightStep& at) const;
     double friction_of(const PairKey& pair) const;
     void recall(State& state) const;

@@ -1,6 +1,7 @@
 #include "host/solver/contact/moving_boundary.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "host/parallel/launch.hpp"
 #include "host/solver/contact/contact_tuning.hpp"
@@ -77,13 +78,16 @@ void MovingBoundary::carry_along(const State& state, const CcdFilter& filter, co
     const std::vector<PairCandidate>& candidates = filter.candidates();
     const std::vector<PairDistance>& distances = filter.distances();
     std::vector<int> nearest(std::size_t(state.size.vertex_count), -1);
+    const auto is_nearer = [&](std::size_t a, int b) {  // whatever their order in the list
+        return std::tie(distances[a].distance, candidates[a].edges, candidates[a].corner) <
+               std::tie(distances[b].distance, candidates[b].edges, candidates[b].corner);
+    };
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const auto& c = candidates[k].corner;
         if (!distances[k].relevant || std::max(c[0], c[3]) < 0 || !has_body(candidates[k])) continue;
         if (distances[k].distance > filter.gaps().of_cloth(candidates[k])) continue;
         for (int v : c)
-            if (v >= 0 && (nearest[v] < 0 || distances[k].distance < distances[nearest[v]].distance))
-                nearest[v] = int(k);
+            if (v >= 0 && (nearest[v] < 0 || is_nearer(k, nearest[v]))) nearest[v] = int(k);
     }
     for_each_item(state.size.vertex_count, [&](int v) {
         if (nearest[v] < 0 || state.inv_mass[v] == 0) return;

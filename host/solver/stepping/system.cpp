@@ -115,10 +115,26 @@ void System::refresh_air()
                    [&] { find_face_air(state_); });
 }
 
+// The searches within it have records of their own, whose items are the pairs that were measured.
+template <class Work>
+void System::timed_contact(std::string_view name, const Work& work)
+{
+    const TreeCounts before = around_.cloth->search_counts();
+    profile_.timed(name, state_.size.vertex_count, 0, work);
+    const TreeCounts& after = around_.cloth->search_counts();
+    const auto add = [this](std::string_view search, const SearchCounts& from, const SearchCounts& to) {
+        if (to.searches > from.searches)
+            profile_.add({std::string(search), to.searches - from.searches, to.spent - from.spent,
+                          to.measured - from.measured, 0});
+    };
+    add("cloth_search", before.whole, after.whole);
+    add("cloth_search_part", before.partial, after.partial);
+}
+
 void System::refresh_pairs()
 {
     if (!around_.cloth) return;
-    profile_.timed("cloth_contact_pairs", state_.size.vertex_count, 0, [&] { around_.cloth->update(state_); });
+    timed_contact("cloth_contact_pairs", [&] { around_.cloth->update(state_); });
 }
 
 void System::forget_searches()
@@ -129,8 +145,7 @@ void System::forget_searches()
 void System::limit_by_pairs(std::vector<real>& move, bool uniform)
 {
     if (!around_.cloth) return;
-    profile_.timed("cloth_contact_way", state_.size.vertex_count, 0,
-                   [&] { around_.cloth->filter_step(state_, move, uniform); });
+    timed_contact("cloth_contact_way", [&] { around_.cloth->filter_step(state_, move, uniform); });
 }
 
 void System::settle()
@@ -186,8 +201,8 @@ void System::move_boundary()
 bool System::advance_boundary(const MovingBoundary::Follow& follow)
 {
     if (!boundary_waits()) return false;
-    return profile_.timed("advance_held", state_.size.vertex_count, 0,
-                          [&] { return around_.cloth->advance_boundary(state_, follow); });
+    timed_contact("advance_held", [&] { around_.cloth->advance_boundary(state_, follow); });
+    return boundary_waits();
 }
 
 }  // namespace selvage

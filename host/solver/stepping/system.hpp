@@ -121,6 +121,9 @@ public:
     bool advance_boundary(const MovingBoundary::Follow& follow);
 
 private:
+    template <class Work>
+    void timed_contact(std::string_view name, const Work& work);
+
     State state_;
     Params params_;
     Profile& profile_;

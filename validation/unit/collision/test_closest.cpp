@@ -177,3 +177,21 @@ TEST_CASE("a move along or away from the other side is free", "[closest]")
     CHECK(free_part(x, {Vec3(0.3, 0.3, 0), none, none, none}, false) == 1);
     CHECK(free_part(x, {none, none, none, none}, false) == 1);
 }
+
+TEST_CASE("two primitives stay as far apart during a move as is told at its start", "[closest]")
+{
+    Corners corners(6);
+    int kept = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const bool edges = trial % 2;
+        const PairCorners x = corners.pair();
+        PairCorners move = corners.pair();
+        for (Vec3& u : move) u *= trial % 3;
+        const double apart = kept_apart(x, move, edges, pair_difference(x, edges));
+        kept += apart > 0;
+        for (int k = 0; k <= 100; ++k) CHECK(pair_distance(at(x, move, k / 100.0), edges) >= apart - 1e-12);
+        for (Vec3& u : move) u = Vec3(5, -3, 2);  // what both sides have in common brings them no nearer
+        CHECK(kept_apart(x, move, edges, pair_difference(x, edges)) >= pair_distance(x, edges) * (1 - 1e-9));
+    }
+    CHECK(kept > 100);
+}

@@ -102,11 +102,15 @@ std::vector<Vec3> sum(std::vector<Vec3> a, const std::vector<Vec3>& b)
     return a;
 }
 
-// Checks that the tree's candidates for a move hold all pairs that come near. Returns the number of these pairs.
+// Checks that the tree's candidates for a move hold all pairs that come near, and that the tree knows which of them it
+// had before. Returns the number of the near pairs.
 int check_complete(const Sheets& scene, ClothTree& tree, const std::vector<Vec3>& x, const std::vector<Vec3>& move)
 {
     const std::vector<real> from = as_planes(x, scene.stride), way = as_planes(move, scene.stride);
-    tree.cover(from.data(), way.data(), scene.stride, {scene.surface.body_corners}, reach, reach);
+    const std::vector<PairCandidate> before = tree.candidates();
+    if (tree.cover(from.data(), way.data(), scene.stride, {scene.surface.body_corners}, reach, reach))
+        for (std::size_t k = 0; k < tree.kept_from().size(); ++k)
+            CHECK(key_of(tree.candidates()[k]) == key_of(before[tree.kept_from()[k]]));
     std::set<Key> found;
     for (const PairCandidate& c : tree.candidates()) {
         CHECK(scene.apart(c));
@@ -135,7 +139,7 @@ void check_crumpled(const Sheets& scene, double crumple, unsigned seed)
     }
     CHECK(near > 0);
     CHECK(tree.counts().reused > 0);
-    CHECK(tree.counts().searches > 1);
+    CHECK(tree.counts().whole.searches > 1);
 }
 
 std::vector<Body> one_box()
@@ -234,6 +238,90 @@ TEST_CASE("a translation of the whole cloth needs no new search", "[tree]")
         CHECK(check_complete(scene, tree, x, move) > 0);
         x = sum(x, move);
     }
-    CHECK(tree.counts().searches == 1);
+    CHECK(tree.counts().whole.searches == 1);
     CHECK(tree.counts().reused == 3);
+}
+
+namespace {
+
+// A move of some of the cloth: random waves within a distance of a random vertex, and very small ones elsewhere.
+std::vector<Vec3> local_move(const Sheets& scene, double size, double radius, std::mt19937& random)
+{
+    std::vector<Vec3> move = random_waves(scene.cloth, size, spacing * side, random);
+    const std::vector<Vec3> elsewhere = random_waves(scene.cloth, 0.01 * spacing, spacing * side, random);
+    const Vec2 middle = scene.cloth.panel_coordinates[random() % move.size()];
+    for (std::size_t v = 0; v < move.size(); ++v)
+        if ((scene.cloth.panel_coordinates[v] - middle).norm() > radius) move[v] = elsewhere[v];
+    return move;
+}
+
+}  // namespace
+
+TEST_CASE("where a part of the cloth leaves its searched move only that is searched again, and no pair is missed",
+          "[tree]")
+{
+    const Cloth two = two_sheets(slit_cloth(side, spacing));
+    for (const Sheets& scene :
+         {Sheets(grid_cloth(side, side, spacing)), Sheets(two), Sheets(grid_cloth(side, side, spacing), one_box())}) {
+        for (unsigned seed : {11u, 12u, 13u}) {
+            INFO("seed " << seed);
+            std::mt19937 random(seed);
+            ClothTree tree(scene.surface, 0.15 * spacing);
+            std::vector<Vec3> x = sum(scene.cloth.positions, random_waves(scene.cloth, 0.05, 0.16, random));
+            int near = 0;
+            for (int k = 0; k < 12; ++k) {
+                const std::vector<Vec3> move = local_move(scene, (k % 3 + 0.2) * spacing, 2.5 * spacing, random);
+                near += check_complete(scene, tree, x, move);
+                if (k % 2) x = sum(x, move);
+            }
+            CHECK(near > 0);
+            CHECK(tree.counts().partial.searches >= 6);
+        }
+    }
+}
+
+TEST_CASE("a part that was flat and bends has its pairs searched though the rest is as before", "[tree]")
+{
+    Cloth cloth = grid_cloth(33, 33, spacing);
+    add_panel(cloth, grid_cloth(20, 20, spacing), Vec3(0, 0, 0.5));
+    const int stride = padded_stride(int(cloth.positions.size()));
+    TreeSurface surface = tree_surface(make_topology(cloth, false), cloth);
+    add_bodies(surface, one_box());  // with a body the frame stays where it is
+    const std::vector<Vec3> corners = surface.body_corners;
+    ClothTree tree(surface, 0.15 * spacing);
+    std::vector<Vec3> folded = cloth.positions;
+    for (Vec3& p : folded)
+        if (p.x() > 0.4 && p.z() == 0) p = {0.8 - p.x(), p.y(), 0.001};
+    for (const bool flat : {true, false, true, false}) {
+        const std::vector<real> pos = as_planes(flat ? cloth.positions : folded, stride);
+        tree.cover(pos.data(), nullptr, stride, {corners}, 0.002, 0.002);
+        const auto& found = tree.candidates();
+        const bool near_itself = std::any_of(found.begin(), found.end(), [](const PairCandidate& pair) {
+            return std::min(pair.corner[0], pair.corner[3]) >= 0;
+        });
+        CHECK((flat || near_itself));
+    }
+    CHECK(tree.counts().whole.searches == 1);
+    CHECK(tree.counts().partial.searches > 0);
+}
+
+TEST_CASE("a part of the cloth that sleeps keeps its pairs while what is awake is searched again", "[tree]")
+{
+    const Sheets scene(grid_cloth(side, side, spacing), one_box());
+    std::mt19937 random(14);
+    ClothTree tree(scene.surface, 0.15 * spacing);
+    std::vector<Vec3> x = sum(scene.cloth.positions, random_waves(scene.cloth, 0.05, 0.16, random));
+    int near = check_complete(scene, tree, x, std::vector<Vec3>(x.size(), Vec3::Zero()));
+    std::vector<char> is_awake(x.size());
+    for (std::size_t v = 0; v < x.size(); ++v) is_awake[v] = scene.cloth.panel_coordinates[v].x() < 0.04;
+    tree.let_sleep(&is_awake);
+    for (int k = 0; k < 12; ++k) {
+        std::vector<Vec3> move = local_move(scene, (k % 3 + 0.2) * spacing, 2.5 * spacing, random);
+        for (std::size_t v = 0; v < x.size(); ++v)
+            if (!is_awake[v]) move[v].setZero();
+        near += check_complete(scene, tree, x, move);
+        if (k % 2) x = sum(x, move);
+    }
+    CHECK(near > 0);
+    CHECK(tree.counts().partial.searches > 0);
 }

@@ -1,3 +1,6 @@
+#include <set>
+
+#include "host/solver/contact/friction_memory.hpp"
 #include "validation/unit/catch.hpp"
 #include "validation/unit/contact/small_stack.hpp"
 
@@ -23,6 +26,13 @@ struct TwoSheets : FilteredSheets {
         return filter.free_fraction(step, held ? filter.held_margins() : filter.margins());
     }
 };
+
+std::set<PairKey> keys_within_gap(const CcdFilter& filter)
+{
+    std::set<PairKey> keys;
+    for (const PairCandidate& pair : filter.within_gap()) keys.insert(key_of(pair));
+    return keys;
+}
 
 }  // namespace
 
@@ -104,4 +114,38 @@ TEST_CASE("a step of a body is free up to the cloth in its way", "[ccd_filter]")
     const double least = least_distance(gap, sheet.gaps.largest_of_bodies(), ContactTuning::kept);
     CHECK(left >= least);
     CHECK(left <= least + 0.02 * (2 * gap - least));
+}
+
+TEST_CASE("what a filter lists and cuts does not depend on what it has searched before", "[ccd_filter]")
+{
+    Body box;
+    box.mesh = box_mesh(Vec3(0.03, 0.03, -0.08 - 2 * gap), Vec3(0.05, 0.04, 0.08));
+    for (const std::vector<Body>& bodies : {std::vector<Body>{}, {box}})
+        for (unsigned seed : {1u, 2u}) {
+            FilteredSheets walking(sheets_above_each_other(3, side, spacing, 1.5 * gap), gap, spacing, bodies);
+            FilteredSheets fresh(walking.cloth, gap, spacing, bodies);
+            std::mt19937 random(seed);
+            std::uniform_real_distribution<double> uniform(-1, 1);
+            std::size_t listed = 0;
+            for (int k = 0; k < 30; ++k) {
+                std::vector<Vec3> wanted = random_waves(walking.cloth, (k % 4) * gap, spacing * side, random);
+                const double from = spacing * side * uniform(random);
+                for (std::size_t v = 0; v < wanted.size(); ++v)
+                    if (k % 3 && walking.cloth.panel_coordinates[v].x() < from) wanted[v] *= 0.01;
+                fresh.filter.forget();
+                std::vector<real> one = as_planes(wanted, walking.stride()), other = one;
+                walking.filter.filter_step(walking.state.pos, one, walking.stride(), walking.bodies(), k % 5 == 0);
+                fresh.filter.filter_step(fresh.state.pos, other, fresh.stride(), fresh.bodies(), k % 5 == 0);
+                CHECK((one == other));
+                const std::set<PairKey> pairs = keys_within_gap(walking.filter);
+                CHECK((pairs == keys_within_gap(fresh.filter)));
+                listed += pairs.size();
+                for (FilteredSheets* sheets : {&walking, &fresh})
+                    for (std::size_t i = 0; i < one.size(); ++i) sheets->state.pos[i] += one[i];
+            }
+            CHECK(listed > 0);
+            CHECK(walking.filter.counts().shortened > 0);
+            CHECK(walking.filter.searches().partial.searches > 0);
+            CHECK(walking.filter.searches().whole.searches < fresh.filter.searches().whole.searches);
+        }
 }

@@ -211,7 +211,7 @@ TEST_CASE("a move is clear only if the cloth does not pass through itself on the
     }
 }
 
-TEST_CASE("a pair finds its bristle again after the cloth has been elsewhere in between", "[cloth_contact]")
+TEST_CASE("a pair keeps its bristle while the cloth is elsewhere within a step", "[cloth_contact]")
 {
     Pile pile(stack(3, 0.7 * gap));
     pile.contact.update(pile.state);
@@ -224,12 +224,10 @@ TEST_CASE("a pair finds its bristle again after the cloth has been elsewhere in 
     const std::vector<real> start = pile.state.pos;
     pile.add(pile.shift(Vec3(2.5 * spacing, 0.5 * spacing, 0)));
     pile.contact.update(pile.state);
-    const FrictionMemory away = in_state(pile.state);
-    CHECK(away.size() < memory.size());
-    for (const PairFriction& friction : away) CHECK(std::find(memory.begin(), memory.end(), friction) != memory.end());
+    CHECK((in_state(pile.state) == memory));  // too long to print
     pile.state.pos = start;
     pile.contact.update(pile.state);
-    CHECK((in_state(pile.state) == memory));  // too long to print
+    CHECK((in_state(pile.state) == memory));
 }
 
 TEST_CASE("saved and restored friction memory gives the same bristles in another contact object", "[cloth_contact]")
