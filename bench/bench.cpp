@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "bench/suites/broad_phase.hpp"
+#include "bench/suites/contact_cost.hpp"
 #include "bench/suites/kernels.hpp"
 #include "bench/suites/scaling.hpp"
 #include "bench/suites/skip.hpp"
@@ -20,9 +21,10 @@ struct Suite {
 
 const std::vector<Suite>& suites()
 {
-    static const std::vector<Suite> all = {
-        {"kernels", bench_kernels}, {"broad-phase", bench_broad_phase},       {"skip", bench_skip},
-        {"scaling", bench_scaling}, {"work-precision", bench_work_precision}, {"stability", bench_stability}};
+    static const std::vector<Suite> all = {{"kernels", bench_kernels},    {"broad-phase", bench_broad_phase},
+                                           {"contact", bench_contact},    {"skip", bench_skip},
+                                           {"scaling", bench_scaling},    {"work-precision", bench_work_precision},
+                                           {"stability", bench_stability}};
     return all;
 }
 
