@@ -44,6 +44,15 @@ KERNEL_FN pair_weights closest_point_face(vec3 x, vec3 f0, vec3 f1, vec3 f2)
     return face_weights(b / sum, c / sum);
 }
 
+// Weights (1, -a, -b, -c) of x and of the point of the face's plane that is closest to it, also beyond the face.
+KERNEL_FN pair_weights closest_point_plane(vec3 x, vec3 f0, vec3 f1, vec3 f2)
+{
+    vec3 e1 = f1 - f0, e2 = f2 - f0, d = x - f0;
+    real a = dot(e1, e1), b = dot(e1, e2), c = dot(e2, e2), d1 = dot(e1, d), d2 = dot(e2, d);
+    real determinant = a * c - b * b;
+    return face_weights((c * d1 - b * d2) / determinant, (a * d2 - b * d1) / determinant);
+}
+
 // Weights (1 - s, s, t - 1, -t) of the closest points of the segments p0 p1 and q0 q1.
 KERNEL_FN pair_weights closest_edge_edge(vec3 p0, vec3 p1, vec3 q0, vec3 q1)
 {

@@ -52,7 +52,7 @@ void measure_scene(const PrecisionScene& scene, bool quick, Measured& to)
         point.result.positions.clear();
         to.points.push_back(std::move(point));
     }
-    to.standards.push_back(text_of(integrator_of(runner.scene())));
+    to.standards.push_back(text_of(integrator_of(runner.scene(), runner.model().cloth_model)));
     to.scenes.push_back(scene);
     to.references.push_back(std::move(reference));
 }

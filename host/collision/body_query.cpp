@@ -364,7 +364,7 @@ void BodyQuery::move_to(double time)
     impl_->time = time;
 }
 
-double BodyQuery::longest_step(double time, double room, double way) const
+double BodyQuery::longest_step(double time, double room, double way, const Box& near) const
 {
     const auto too_far = [&](double dt) {
         return std::any_of(impl_->movers.begin(), impl_->movers.end(), [&](const Mover& mover) {
@@ -372,7 +372,9 @@ double BodyQuery::longest_step(double time, double room, double way) const
             for (int k = 0; k < BodyQueryTuning::motion_parts; ++k)
                 sum += mover.motion->distance(time + k * dt / BodyQueryTuning::motion_parts,
                                               time + (k + 1) * dt / BodyQueryTuning::motion_parts, mover.box);
-            return sum > way;
+            if (sum <= way) return false;
+            const Box at = mover.motion->box_at(time, mover.box);
+            return mover.plane || near.exteriorDistance(at) <= sum;
         });
     };
     double dt = room;

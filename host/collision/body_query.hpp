@@ -77,10 +77,10 @@ public:
     /// Moves all bodies to where they are at a time [s].
     void move_to(double time);
 
-    /// Returns the longest of the steps room, room / 2, room / 4, ... from `time` on in which no body's surface moves
-    /// further than `way`, but no less than about 1e-6 room [s].
+    /// Returns the longest of the steps room, room / 2, room / 4, ... from `time` on in which the surface of no body
+    /// that may come into `near` meanwhile moves further than `way`, but no less than about 1e-6 room [s].
     /// @param time, room  [s]   @param way  [m], > 0
-    double longest_step(double time, double room, double way) const;
+    double longest_step(double time, double room, double way, const Box& near) const;
 
     /// Returns where the last `move_to` took a point [m] that is attached to the surface which the last `nearest` found
     /// for a vertex. The point moves rigidly with the body, and if the body deforms also with the closest point of the

@@ -105,6 +105,15 @@ double BodyMotion::distance(double from, double to, const Box& box) const
     return deformation + rigid;
 }
 
+Box BodyMotion::box_at(double time, const Box& box) const
+{
+    const Placement place = placement(time);
+    const Box around = box.merged(reach_);
+    Box result;
+    for (int corner = 0; corner < 8; ++corner) result.extend(place * around.corner(Box::CornerType(corner)));
+    return result;
+}
+
 double BodyMotion::highest_speed(const Box& box) const
 {
     constexpr int samples = 200;  // over the whole motion; chosen by hand, not measured

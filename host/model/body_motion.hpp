@@ -49,6 +49,8 @@ public:
     /// Returns an upper bound of the distance between the positions of any surface point at two times [m].
     /// @param box  a box around the body at time 0; the poses are added to it
     double distance(double from, double to, const Box& box) const;
+    /// Returns a box around the body at a time [m]. @param box  as for distance
+    Box box_at(double time, const Box& box) const;
     /// Estimates the highest speed of any surface point from samples of the motion [m/s]. @param box  as for distance
     double highest_speed(const Box& box) const;
     std::size_t bytes() const;  ///< Memory of the poses.

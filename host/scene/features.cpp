@@ -166,17 +166,14 @@ std::string seam(const FeatureCase& with, Params& params)
 
 // Contact: exactly one law gets a strength ----------------------------------------------
 
-double contact_stiffness(const Scene& scene, const SceneModel& model)
+// At the heaviest fabric where no body is fast; other places have it in proportion. See local_hardness.
+double stiffness_of_contact(const Scene& scene, const SceneModel& model)
 {
     if (!std::isnan(scene.contact.stiffness)) return scene.contact.stiffness;
     double heaviest = 0;
     for (const auto& [name, fabric] : model.cloth_model.fabrics) heaviest = std::max(heaviest, fabric.areal_density);
     const double gravity = scene.solver.gravity.norm();
-    double fastest = 0;
-    for (const Body& body : model.cloth_model.bodies)
-        if (body.motion) fastest = std::max(fastest, body.motion->highest_speed(box_of(body.mesh.vertices)));
-    // What a body drives before it has to gain its speed within the gap.
-    return heaviest * std::max(100 * (gravity > 0 ? gravity : 9.81), fastest * fastest / scene.contact.gap);
+    return 100 * heaviest * (gravity > 0 ? gravity : 9.81);
 }
 
 std::string response_in_place(const Scene& scene) { return "contact.response is " + text_of(scene.contact.response); }
@@ -212,7 +209,7 @@ std::string why_no_cloth_law(const FeatureCase& with, ContactResponse law)
 std::string body_contact(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_body_law(with, ContactResponse::barrier); !reason.empty()) return reason;
-    params.body_contact.stiffness = contact_stiffness(with.scene, with.model);
+    params.body_contact.stiffness = stiffness_of_contact(with.scene, with.model);
     params.body_contact.gap = with.scene.contact.gap;
     return on;
 }
@@ -220,7 +217,7 @@ std::string body_contact(const FeatureCase& with, Params& params)
 std::string body_repulsion(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_body_law(with, ContactResponse::exponential); !reason.empty()) return reason;
-    params.body_repulsion.stiffness = contact_stiffness(with.scene, with.model);
+    params.body_repulsion.stiffness = stiffness_of_contact(with.scene, with.model);
     params.body_repulsion.gap = with.scene.contact.gap;
     return on;
 }
@@ -228,7 +225,7 @@ std::string body_repulsion(const FeatureCase& with, Params& params)
 std::string cloth_contact(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_cloth_law(with, ContactResponse::barrier); !reason.empty()) return reason;
-    params.cloth_contact.stiffness = contact_stiffness(with.scene, with.model);
+    params.cloth_contact.stiffness = stiffness_of_contact(with.scene, with.model);
     params.cloth_contact.gap = with.scene.contact.gap;
     return on;
 }
@@ -236,7 +233,7 @@ std::string cloth_contact(const FeatureCase& with, Params& params)
 std::string cloth_repulsion(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_cloth_law(with, ContactResponse::exponential); !reason.empty()) return reason;
-    params.cloth_repulsion.stiffness = contact_stiffness(with.scene, with.model);
+    params.cloth_repulsion.stiffness = stiffness_of_contact(with.scene, with.model);
     params.cloth_repulsion.gap = with.scene.contact.gap;
     return on;
 }

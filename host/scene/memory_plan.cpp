@@ -96,7 +96,7 @@ std::size_t cloth_contact_bytes(const PhaseMemory& phase)
     const std::size_t tangles = phase.topology.faces.size() * sizeof(Face) + 3 * particles;
     const std::size_t filter =
         corners * (sizeof(Vec3) + 2 * sizeof(float)) + MemoryTuning::candidates * particles * sizeof(PairDistance);
-    const std::size_t friction = 2 * particles * sizeof(double);
+    const std::size_t friction = 3 * particles * sizeof(double);  // with areas and hardness
     return ClothTree::bytes_of(faces, corners) + MemoryTuning::candidates * particles * sizeof(PairCandidate) + filter +
            tangles + friction + bodies;
 }

@@ -118,7 +118,7 @@ RunPlan make_plan(const Scene& scene, const SceneModel& model)
 {
     RunPlan plan;
     const MemoryPart present = present_memory();  // before the plan itself takes and gives back any
-    plan.integrators = drape_integrators(scene);
+    plan.integrators = drape_integrators(scene, model.cloth_model);
     if (model.sews) plan.phases.push_back(plan_phase(scene, model, RunStage::sew));
     plan.phases.push_back(plan_phase(scene, model, RunStage::drape));
     const FeatureCase drape{scene, model, false};

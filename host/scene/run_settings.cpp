@@ -1,7 +1,9 @@
 #include "host/scene/run_settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "host/model/motion_reach.hpp"
 #include "host/scene/coarse_start.hpp"
 #include "host/scene/features.hpp"
 #include "host/scene/scene_values.hpp"
@@ -42,6 +44,14 @@ EquilibriumOptions drape_options(const SolverScene& solver)
     return options;
 }
 
+// Whether a motion takes part in how the cloth comes to rest: that of a body which never comes near it does not.
+bool moves_near_cloth(const Scene& scene, const ClothModel& model)
+{
+    const Box reach = swing_reach(box_of(model.cloth.positions), scene.solver.gravity);
+    return !scene.pin_motions.empty() || std::any_of(model.bodies.begin(), model.bodies.end(),
+                                                     [&](const Body& body) { return moves_within(body, reach); });
+}
+
 }  // namespace
 
 RunSettings make_run_settings(const Scene& scene, const SceneModel& model)
@@ -56,7 +66,7 @@ RunSettings make_run_settings(const Scene& scene, const SceneModel& model)
     if (why_no_coarse_start(scene, model).empty())
         for (std::size_t level = 0; level < levels_used(scene, model); ++level)
             settings.coarser.push_back(cloth_settings(scene, coarser_model(model, level)));
-    settings.integrator = integrator_of(scene);
+    settings.integrator = integrator_of(scene, model.cloth_model);
     settings.precision = solve_precision(scene, model.cloth_model.cloth);
     settings.until = scene.until();
     settings.drape = drape_options(scene.solver);
@@ -71,6 +81,7 @@ PhaseOptions phase_options(const Scene& scene, const SceneModel& model, bool sew
     PhaseOptions options;
     options.params = phase_params(scene, model, sewing);
     options.joined = !sewing;
+    options.local_stiffness = std::isnan(scene.contact.stiffness);
     options.float_solves = solve_precision(scene, model.cloth_model.cloth) == PrecisionChoice::in_float;
     options.linear.max_iterations = scene.solver.linear_iterations;
     const bool levels =
@@ -89,7 +100,7 @@ PrecisionChoice solve_precision(const Scene& scene, const Cloth& cloth)
     return cloth.positions.size() > most_in_float ? PrecisionChoice::in_double : PrecisionChoice::in_float;
 }
 
-IntegratorChoice integrator_of(const Scene& scene)
+IntegratorChoice integrator_of(const Scene& scene, const ClothModel& model)
 {
     if (scene.solver.integrator != IntegratorChoice::automatic) return scene.solver.integrator;
     // Cloth that folds on bodies takes BDF2 twice the iterations of implicit Euler; where the motion counts it is worth
@@ -99,12 +110,13 @@ IntegratorChoice integrator_of(const Scene& scene)
     // Where rest depends on the way there, or the steps are to follow an estimate of their error, the way is a motion.
     if (scene.bending.hysteresis || scene.solver.adaptive) return IntegratorChoice::implicit_euler;
     if (scene.bodies.empty()) return IntegratorChoice::quasistatic;
-    return scene.moves() || scene.solver.load_steps > 1 ? IntegratorChoice::implicit_euler : IntegratorChoice::bdf2;
+    return moves_near_cloth(scene, model) || scene.solver.load_steps > 1 ? IntegratorChoice::implicit_euler
+                                                                         : IntegratorChoice::bdf2;
 }
 
-std::vector<std::string> drape_integrators(const Scene& scene)
+std::vector<std::string> drape_integrators(const Scene& scene, const ClothModel& model)
 {
-    const std::string first = text_of(integrator_of(scene));
+    const std::string first = text_of(integrator_of(scene, model));
     if (!scene.until().equilibrium) return {first};
     const auto chosen = std::ranges::find(integrators(), first, &IntegratorInfo::name);
     const std::string_view next = successor(*chosen, drape_options(scene.solver));

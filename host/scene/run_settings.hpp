@@ -46,10 +46,11 @@ PrecisionChoice solve_precision(const Scene& scene, const Cloth& cloth);
 /// The integrator that moves the cloth while it drapes: solver.integrator, or what `bench work-precision` finds best:
 /// bdf2 for motions without bodies, implicit_euler with them; on the way to rest static where the way does not matter
 /// (no bodies and so no friction, no hysteresis), implicit_euler elsewhere.
-IntegratorChoice integrator_of(const Scene& scene);
+/// A body that moves without coming near the cloth counts as one that stands still.
+IntegratorChoice integrator_of(const Scene& scene, const ClothModel& model);
 
 /// The names of those that move the cloth while it drapes, in their order: integrator_of, and the one that takes over
 /// on the way to rest, if one does; see RestMode.
-std::vector<std::string> drape_integrators(const Scene& scene);
+std::vector<std::string> drape_integrators(const Scene& scene, const ClothModel& model);
 
 }  // namespace selvage

@@ -1,7 +1,7 @@
 // Barrier contact of a vertex with the nearest body surface, which is its tangent plane while a step is solved.
 //     g = n . x - offset  [m],    s = g / d
 //     E = A P d b(s)  [J]         f = -A P b'(s) n  [N]      stiffness A P b''(s)/d n n^T  [N/m]
-// g is the gap, d the gap at which contact sets in, P a pressure, A the vertex area. Source: barrier.h for b.
+// g is the gap, d where contact sets in, P a pressure, A the vertex area times its hardness. Source: barrier.h for b.
 #pragma once
 #include "../barrier.h"
 #include "../term_args.h"
@@ -10,10 +10,16 @@
     STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the barrier, P") \
     PARAM(gap, 0.002, "m", "distance at which contact sets in, d")
 // clang-format off
-#define body_contact_FIELDS(READ, ADD)                                                             \
-    READ(pos) READ(contact_normal) READ(contact_offset) READ(contact_area) ADD(force) ADD(vertex_stiffness)
+#define body_contact_FIELDS(READ, ADD) READ(pos) READ(contact_normal) READ(contact_offset)         \
+    READ(contact_area) READ(contact_hardness) ADD(force) ADD(vertex_stiffness)
 // clang-format on
 TERM_ARGS(body_contact)
+
+// The pressure scale of the vertex, times its area [N].
+KERNEL_FN real body_contact_scale(int vertex, const body_contact_args* a)
+{
+    return a->contact_area[vertex] * a->contact_hardness[vertex] * a->stiffness;
+}
 
 KERNEL_FN barrier_jet body_contact_at(int vertex, const body_contact_args* a)
 {
@@ -24,13 +30,13 @@ KERNEL_FN barrier_jet body_contact_at(int vertex, const body_contact_args* a)
 
 KERNEL_FN real body_contact_energy(int vertex, const body_contact_args* a)
 {
-    return a->contact_area[vertex] * a->stiffness * a->gap * body_contact_at(vertex, a).value;
+    return body_contact_scale(vertex, a) * a->gap * body_contact_at(vertex, a).value;
 }
 
 // Normal force, positive when the body pushes [N].
 KERNEL_FN real body_contact_pressure_force(int vertex, const body_contact_args* a)
 {
-    return -a->contact_area[vertex] * a->stiffness * body_contact_at(vertex, a).slope;
+    return -body_contact_scale(vertex, a) * body_contact_at(vertex, a).slope;
 }
 
 KERNEL_FN void body_contact_force(int vertex, const body_contact_args* a)
@@ -43,6 +49,6 @@ KERNEL_FN void body_contact_stiffness(int vertex, const body_contact_args* a)
 {
     int vs = a->size.vertex_stride;
     vec3 n = load3(a->contact_normal, vs, vertex);
-    real k = a->contact_area[vertex] * a->stiffness / a->gap * body_contact_at(vertex, a).curvature;
+    real k = body_contact_scale(vertex, a) / a->gap * body_contact_at(vertex, a).curvature;
     add_block(a->vertex_stiffness, vs, vertex, 0, outer3(k, n, n));
 }

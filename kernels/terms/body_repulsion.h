@@ -1,7 +1,7 @@
 // Exponential repulsion of a vertex from the nearest body surface, which is its tangent plane while a step is solved.
 //     g = n . x - offset  [m],    s = g / d
 //     E = A P d Q(s)  [J]         f = A P q(s) n  [N]         stiffness -A P q'(s)/d n n^T  [N/m]
-// g is the gap, d the gap at which contact sets in, P a pressure, A the vertex area. The term replaces body_contact and
+// g is the gap, d where contact sets in, P a pressure, A vertex area times hardness. It replaces body_contact and
 // is meant for comparison: its force is bounded, so it cannot guarantee that nothing penetrates.
 // Source: repulsion.h for q and Q; A P is the source's c_r.
 #pragma once
@@ -12,10 +12,16 @@
     STRENGTH(stiffness, 0.0, "Pa", "pressure scale of the exponential law, P") \
     PARAM(gap, 0.002, "m", "distance at which contact sets in, d")
 // clang-format off
-#define body_repulsion_FIELDS(READ, ADD)                                                           \
-    READ(pos) READ(contact_normal) READ(contact_offset) READ(contact_area) ADD(force) ADD(vertex_stiffness)
+#define body_repulsion_FIELDS(READ, ADD) READ(pos) READ(contact_normal) READ(contact_offset)       \
+    READ(contact_area) READ(contact_hardness) ADD(force) ADD(vertex_stiffness)
 // clang-format on
 TERM_ARGS(body_repulsion)
+
+// The pressure scale of the vertex, times its area [N].
+KERNEL_FN real body_repulsion_scale(int vertex, const body_repulsion_args* a)
+{
+    return a->contact_area[vertex] * a->contact_hardness[vertex] * a->stiffness;
+}
 
 KERNEL_FN barrier_jet body_repulsion_at(int vertex, const body_repulsion_args* a)
 {
@@ -26,13 +32,13 @@ KERNEL_FN barrier_jet body_repulsion_at(int vertex, const body_repulsion_args* a
 
 KERNEL_FN real body_repulsion_energy(int vertex, const body_repulsion_args* a)
 {
-    return a->contact_area[vertex] * a->stiffness * a->gap * body_repulsion_at(vertex, a).value;
+    return body_repulsion_scale(vertex, a) * a->gap * body_repulsion_at(vertex, a).value;
 }
 
 // Normal force, positive when the body pushes [N].
 KERNEL_FN real body_repulsion_push(int vertex, const body_repulsion_args* a)
 {
-    return -a->contact_area[vertex] * a->stiffness * body_repulsion_at(vertex, a).slope;
+    return -body_repulsion_scale(vertex, a) * body_repulsion_at(vertex, a).slope;
 }
 
 KERNEL_FN void body_repulsion_force(int vertex, const body_repulsion_args* a)
@@ -45,6 +51,6 @@ KERNEL_FN void body_repulsion_stiffness(int vertex, const body_repulsion_args* a
 {
     int vs = a->size.vertex_stride;
     vec3 n = load3(a->contact_normal, vs, vertex);
-    real k = a->contact_area[vertex] * a->stiffness / a->gap * body_repulsion_at(vertex, a).curvature;
+    real k = body_repulsion_scale(vertex, a) / a->gap * body_repulsion_at(vertex, a).curvature;
     add_block(a->vertex_stiffness, vs, vertex, 0, outer3(k, n, n));
 }

@@ -6,7 +6,7 @@
 // g is the distance at which the pair's contact sets in, P a pressure, A the pair's area, b the barrier of barrier.h.
 // The barrier is infinite at d = g / 200, so that pairs do not touch in output files either, where positions are
 // rounded to a micrometre. A negative corner belongs to a body: its position is body_point[-1 - corner], and it takes
-// no force.
+// no force. A vertex beyond the rim of a layer meets the plane of the face there, as ContactPairs tells.
 // K omits the change of n. The omitted part is negative semidefinite, because f is repulsive, so K is already the
 // projected stiffness.
 // Source: Li and others 2021 (C-IPC), with distances in place of squared distances.
@@ -37,7 +37,10 @@ KERNEL_FN void pair_frame(int pair, const cloth_contact_args* a)
     int ps = a->size.pair_stride;
     vec3 x0 = pair_corner(0, pair, a), x1 = pair_corner(1, pair, a), x2 = pair_corner(2, pair, a),
          x3 = pair_corner(3, pair, a);
-    pair_weights p = a->pair_edges[pair] ? closest_edge_edge(x0, x1, x2, x3) : closest_point_face(x0, x1, x2, x3);
+    int kind = a->pair_edges[pair];
+    pair_weights p = kind == 1   ? closest_edge_edge(x0, x1, x2, x3)
+                     : kind == 2 ? closest_point_plane(x0, x1, x2, x3)
+                                 : closest_point_face(x0, x1, x2, x3);
     // The weights sum to zero, so r is a sum of differences of positions. Taking the differences first avoids the
     // cancellation that positions far from the origin would cause.
     vec3 r = p.w[1] * (x1 - x0) + p.w[2] * (x2 - x0) + p.w[3] * (x3 - x0);

@@ -60,6 +60,53 @@ class LocalContact(Scratch):
         self.assertGreater(heights["plain"], 0.0015)
         self.assertAlmostEqual(heights["sliver"], heights["plain"], delta=2e-5)
 
+    def test_a_body_that_moves_far_away_changes_neither_how_cloth_rests_nor_the_work(self):
+        far = ["[[body]]", 'name = "far"', 'shape = "sphere"', "radius = 0.1", "center = [0, 30, 5]",
+               "[[body.keyframe]]", "time = 0.1", "translation = [0, 1, 0]"]
+        ball = ["[[body]]", 'shape = "sphere"', "radius = 0.08"]
+        for name, body, most, close in (("floor", FLOOR, 12, 2e-6), ("ball", ball, 40, 1e-3)):
+            with self.subTest(name):
+                sheet = ["[[sheet]]", "width = 0.2", "height = 0.2", "resolution = 9", 'fabric = "cotton"',
+                         "center = [0, 0, {}]".format(0.004 if name == "floor" else 0.084)]
+                rest = ["[solver]", 'until = "equilibrium"']
+                alone, first = self.drape(name + "_alone", sheet + body + rest)
+                x, second = self.drape(name + "_with", sheet + body + far + rest)
+                print(name, first["steps"], "steps alone,", second["steps"], "with a body far away; heights",
+                      alone[:, 2].min(), x[:, 2].min())
+                self.assertAlmostEqual(x[:, 2].min(), alone[:, 2].min(), delta=close)
+                self.assertLessEqual(second["steps"], most)
+                self.assertEqual(second["integrators"], first["integrators"])
+
+    def test_a_heavy_sheet_changes_nothing_of_a_light_one_beside_it(self):
+        light = ["[[sheet]]", "width = 0.2", "height = 0.2", "resolution = 9", 'fabric = "silk"',
+                 "center = [0, 0, 0.004]"]
+        heavy = ["[[sheet]]", "width = 0.2", "height = 0.2", "resolution = 9", 'fabric = "leather"',
+                 "center = [0.5, 0, 0.004]"]
+        rest = ["[solver]", 'until = "equilibrium"']
+        alone, _ = self.drape("alone", light + FLOOR + rest)
+        beside, _ = self.drape("beside", light + heavy + FLOOR + rest)
+        heights = alone[:, 2].mean(), beside[:81, 2].mean(), beside[81:, 2].mean()
+        print("silk rests at", heights[0], "and beside leather at", heights[1], "which rests at", heights[2])
+        self.assertAlmostEqual(heights[1], heights[0], delta=2e-6)
+        self.assertAlmostEqual(heights[2], heights[0], delta=2e-5)
+
+    def test_aligned_cards_without_friction_stay_above_each_other(self):
+        cards = []
+        for k in (1, 2, 3):
+            cards += ["[[sheet]]", "width = 0.063", "height = 0.088", "resolution = 9",
+                      f"center = [0, 0, {0.0025 * k}]", 'fabric = "card"']
+        x, _ = self.drape("cards", cards + FLOOR + [
+            "friction = 0", "[fabric.card]", "areal_density = 0.3", "thickness = 0.0003", "stretch_weft = 1e5",
+            "stretch_warp = 1e5", "shear = 4e4", "bending_weft = 1e-3", "bending_warp = 1e-3", "friction = 0",
+            "damping = 0.5", "[solver]", "until = 3"])
+        for card in np.split(x, 3):
+            aside = np.linalg.norm(card[:, :2].mean(axis=0))
+            way = card[-1, :2] - card[0, :2]
+            turned = np.degrees(np.arctan2(way[1], way[0]) - np.arctan2(0.088, 0.063))
+            print(f"card: {1000 * aside:.4f} mm aside, turned by {turned:.4f} degrees")
+            self.assertLess(aside, 1e-4)
+            self.assertLess(abs(turned), 0.1)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -50,8 +50,8 @@ bool clear_by_vertices(const Body& body, const Cloth& cloth)
 
 ClothBodyContact::ClothBodyContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology,
                                    const Cloth& cloth, const FabricTable& fabrics, double gap, double margin,
-                                   bool by_faces)
-    : query_(query), fabric_friction_(particle_friction(topology, cloth, fabrics)),
+                                   bool by_faces, ContactHardness hardness)
+    : query_(query), fabric_friction_(particle_friction(topology, cloth, fabrics)), hardness_(std::move(hardness)),
       body_of_vertex_(std::size_t(topology.particle_count), -1), gap_(gap), margin_(margin)
 {
     for (const Body& body : bodies) {
@@ -82,6 +82,11 @@ void ClothBodyContact::update(State& state)
         for (int c = 0; c < 3; ++c) along += state.contact_normal[c * vs + v] * state.pos[c * vs + v];
         return along < gap ? 1.0 : 0.0;
     }));
+    if (!state.contact_hardness.empty() && !hardness_.of_particle.empty())
+        for_each_item(count, [this, &state](int v) {
+            const int body = body_of_vertex_[v];
+            state.contact_hardness[v] = hardness_.of_particle[v] * (body >= 0 ? hardness_.of_body[body] : 1);
+        });
     if (state.contact_friction.empty()) return;
     for_each_item(count, [this, &state](int v) {
         const int body = body_of_vertex_[v];
@@ -90,9 +95,10 @@ void ClothBodyContact::update(State& state)
     });
 }
 
-double ClothBodyContact::longest_step(double time, double room) const
+double ClothBodyContact::longest_step(double time, double room, const Box& cloth) const
 {
-    return query_.longest_step(time, room, 0.5 * search_radius());
+    const Vec3 margin = Vec3::Constant(search_radius());
+    return query_.longest_step(time, room, 0.5 * search_radius(), {cloth.min() - margin, cloth.max() + margin});
 }
 
 void ClothBodyContact::place(State& state, double time)

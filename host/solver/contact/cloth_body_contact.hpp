@@ -5,6 +5,7 @@
 #include "host/model/body.hpp"
 #include "host/model/cloth_model.hpp"
 #include "host/solver/contact/contact_field.hpp"
+#include "host/solver/contact/contact_hardness.hpp"
 #include "host/solver/state/topology.hpp"
 
 namespace selvage {
@@ -26,9 +27,11 @@ class ClothBodyContact final : public ContactField {
 public:
     /// @param gap      distance at which contact sets in [m]
     /// @param margin   further distance within which a vertex already knows its surface [m]
+    /// @param hardness  how stiff contact is where it is not as the term says
     /// @param by_faces  edges and faces are kept off those bodies that cloth is not clear of whose vertices are
     ClothBodyContact(BodyQuery& query, const std::vector<Body>& bodies, const Topology& topology, const Cloth& cloth,
-                     const FabricTable& fabrics, double gap, double margin, bool by_faces);
+                     const FabricTable& fabrics, double gap, double margin, bool by_faces,
+                     ContactHardness hardness = {});
 
     /// Keeps those particles further off whose triangles a body pierces between them, until it does no more.
     /// @param pierced  per particle, as ClothContact has it; must outlive this object   @param by  [m]
@@ -44,7 +47,8 @@ public:
 
     double time() const { return query_.time(); }              ///< At which the bodies are [s].
     double motion_end() const { return query_.motion_end(); }  ///< See BodyQuery.
-    double longest_step(double time, double room) const;       ///< In which no surface leaves what is known of it [s].
+    /// In which no surface near the cloth leaves what is known of it [s]. @param cloth  where it may come meanwhile [m]
+    double longest_step(double time, double room, const Box& cloth) const;
     /// Puts the bodies where they are at a time and finds their surfaces anew.
     void place(State& state, double time);
     /// Moves the bodies from where they are to a time. The friction anchors of vertices in contact go along with the
@@ -56,6 +60,7 @@ private:
     std::vector<double> body_friction_;    ///< Per body; NaN: the fabric's.
     std::vector<double> body_sag_;         ///< Per body: by how much vertices are kept further away [m].
     std::vector<double> fabric_friction_;  ///< Per particle: the largest of its panels'.
+    ContactHardness hardness_;
     std::vector<int> body_of_vertex_;
     const std::vector<char>* pierced_ = nullptr;
     double lift_ = 0;  ///< [m]

@@ -47,12 +47,13 @@ std::vector<double> particle_areas(const Topology& topology, const Cloth& cloth)
 }  // namespace
 
 ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies,
-                           ContactGaps gaps, std::vector<double> friction)
+                           ContactGaps gaps, std::vector<double> friction, std::vector<double> hardness)
     : gaps_(std::move(gaps)), boundary_(touchable(bodies, cloth)),
       tangles_(topology.faces, topology.particle_count, boundary_.bodies()),
       filter_(whole_surface(topology, cloth, boundary_.bodies()), ContactTuning::tree_slack * typical_edge(cloth),
               gaps_, body_reach(gaps_, boundary_), tangles_.flags()),
-      pairs_(gaps_, particle_areas(topology, cloth), std::move(friction))
+      pairs_(gaps_, ContactShares(topology.faces, topology.particle_count), particle_areas(topology, cloth),
+             std::move(friction), std::move(hardness))
 {
 }
 

@@ -34,8 +34,9 @@ public:
     /// @param bodies    those that can be touched; left out are those that cloth is clear of whose vertices are
     /// @param gaps      distances at which contact sets in
     /// @param friction  per particle [1]
+    /// @param hardness  ContactHardness::of_pairs; empty: 1
     ClothContact(const Topology& topology, const Cloth& cloth, const std::vector<Body>& bodies, ContactGaps gaps,
-                 std::vector<double> friction);
+                 std::vector<double> friction, std::vector<double> hardness = {});
     ClothContact(const ClothContact&) = delete;  // its parts refer to each other
 
     /// Looks for intersections that are there at the start.

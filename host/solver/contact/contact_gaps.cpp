@@ -14,7 +14,21 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Numbers the pieces that hang together, by faces and by seams; per vertex of the cloth.
+// The mean length of the edges of each piece at rest, by its number [m].
+std::vector<double> edges_of_pieces(const Cloth& cloth, const std::vector<int>& piece)
+{
+    std::vector<double> total(piece.size()), count(piece.size());
+    for (const Face& f : cloth.faces)
+        for (int k = 0; k < 3; ++k) {
+            total[piece[f[0]]] += (cloth.panel_coordinates[f[k]] - cloth.panel_coordinates[f[(k + 1) % 3]]).norm();
+            ++count[piece[f[0]]];
+        }
+    for (std::size_t p = 0; p < total.size(); ++p) total[p] = count[p] > 0 ? total[p] / count[p] : infinite;
+    return total;
+}
+
+}  // namespace
+
 std::vector<int> pieces_of(const Cloth& cloth)
 {
     std::vector<int> parent(cloth.positions.size());
@@ -33,21 +47,6 @@ std::vector<int> pieces_of(const Cloth& cloth)
     for (int v = 0; v < int(parent.size()); ++v) piece[v] = root(v);
     return piece;
 }
-
-// The mean length of the edges of each piece at rest, by its number [m].
-std::vector<double> edges_of_pieces(const Cloth& cloth, const std::vector<int>& piece)
-{
-    std::vector<double> total(piece.size()), count(piece.size());
-    for (const Face& f : cloth.faces)
-        for (int k = 0; k < 3; ++k) {
-            total[piece[f[0]]] += (cloth.panel_coordinates[f[k]] - cloth.panel_coordinates[f[(k + 1) % 3]]).norm();
-            ++count[piece[f[0]]];
-        }
-    for (std::size_t p = 0; p < total.size(); ++p) total[p] = count[p] > 0 ? total[p] / count[p] : infinite;
-    return total;
-}
-
-}  // namespace
 
 ContactGaps::ContactGaps(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics, double least)
     : largest_(0)

@@ -7,6 +7,9 @@
 
 namespace selvage {
 
+/// Numbers the pieces of cloth that hang together, by faces and by seams; per vertex of the cloth.
+std::vector<int> pieces_of(const Cloth& cloth);
+
 /// Distances at which contact of the cloth sets in, pair by pair [m]. What is special about one place, be it a thick
 /// fabric, a fine mesh or a narrow triangle, counts for the pairs there only.
 class ContactGaps {

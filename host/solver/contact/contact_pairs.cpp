@@ -17,7 +17,7 @@ namespace {
 
 PairKey key_of(const State& state, int pair)
 {
-    PairKey key{state.pair_edges[pair] != 0, {}};
+    PairKey key{state.pair_edges[pair] == 1, {}};
     for (int i = 0; i < 4; ++i) key.corner[i] = state.pair_vertex[i * state.size.pair_stride + pair];
     return key;
 }
@@ -76,8 +76,10 @@ void list_pair_slots(State& state)
             if (const int v = state.pair_vertex[i * ps + p]; v >= 0) state.pair_slot[begin[v]++] = 4 * p + i;
 }
 
-ContactPairs::ContactPairs(const ContactGaps& gaps, std::vector<double> area, std::vector<double> friction)
-    : gaps_(gaps), area_(std::move(area)), friction_(std::move(friction))
+ContactPairs::ContactPairs(const ContactGaps& gaps, ContactShares shares, std::vector<double> area,
+                           std::vector<double> friction, std::vector<double> hardness)
+    : gaps_(gaps), shares_(std::move(shares)), area_(std::move(area)), friction_(std::move(friction)),
+      hardness_(std::move(hardness))
 {
 }
 
@@ -100,6 +102,16 @@ double ContactPairs::area_of(const PairCandidate& candidate, const StraightStep&
     constexpr double parallel_sine = ContactTuning::parallel_sine;
     const double s = a.cross(b).squaredNorm() / (a.squaredNorm() * b.squaredNorm() * parallel_sine * parallel_sine);
     return area / 3 * (s < 1 ? s * (2 - s) : 1);
+}
+
+// What the side asks that asks more.
+double ContactPairs::hardness_of(const PairCandidate& candidate) const
+{
+    if (hardness_.empty()) return 1;
+    double most = 0;
+    for (int v : candidate.corner)
+        if (v >= 0) most = std::max(most, hardness_[v]);
+    return most;
 }
 
 // The mean of the particles'.
@@ -137,11 +149,12 @@ void ContactPairs::list(State& state, const TreeBodies& bodies, std::vector<Pair
     state.set_pairs(count);
     const int ps = state.size.pair_stride;
     const StraightStep at{state.pos, nullptr, state.size.vertex_stride, bodies};
+    const std::vector<ContactShares::Share> shares = shares_.of(pairs, at);
     for_each_item(count, [&, this](int p) {
         const PairCandidate& candidate = pairs[p];
         for (int i = 0; i < 4; ++i) state.pair_vertex[i * ps + p] = candidate.corner[i];
-        state.pair_edges[p] = candidate.edges;
-        state.pair_area[p] = area_of(candidate, at);
+        state.pair_edges[p] = candidate.edges ? 1 : shares[p].plane ? 2 : 0;
+        state.pair_area[p] = shares[p].part * area_of(candidate, at) * hardness_of(candidate);
         state.pair_gap[p] = gaps_.of(candidate);
     });
     list_pair_slots(state);
@@ -161,8 +174,33 @@ void ContactPairs::recall(State& state) const
     }
 }
 
-void ContactPairs::remember(const State& state)
+// A vertex that has come from one face of a layer to another takes along how far friction had bent its bristle.
+void ContactPairs::pass_on(State& state, int pair) const
 {
+    const int ps = state.size.pair_stride;
+    const PairKey key = key_of(state, pair);
+    if (key.edges || std::min(key.corner[0], key.corner[3]) < 0) return;
+    const auto before = [](const PairFriction& of, const PairKey& at) { return of.pair < at; };
+    auto known = std::lower_bound(memory_.begin(), memory_.end(), PairKey{false, {key.corner[0], -1, -1, -1}}, before);
+    const auto first = key.corner.begin() + 1;
+    const PairFriction* from = nullptr;
+    for (; known != memory_.end() && !known->pair.edges && known->pair.corner[0] == key.corner[0]; ++known) {
+        if (known->pair == key) return;
+        const auto& of = known->pair.corner;
+        const bool beside = std::find_first_of(of.begin() + 1, of.end(), first, key.corner.end()) != of.end();
+        if (beside && (!from || known->limit > from->limit)) from = &*known;
+    }
+    if (!from) return;
+    double along = 0;
+    for (int c = 0; c < 3; ++c) along += state.pair_held_normal[c * ps + pair] * from->bristle[c];
+    for (int c = 0; c < 3; ++c)
+        state.pair_bristle[c * ps + pair] = from->bristle[c] - along * state.pair_held_normal[c * ps + pair];
+}
+
+void ContactPairs::remember(State& state)
+{
+    for (int p = 0; p < state.size.pair_count; ++p)
+        if (state.pair_limit[p] > 0) pass_on(state, p);
     memory_.clear();
     for (int p = 0; p < state.size.pair_count; ++p)
         if (state.pair_limit[p] > 0) memory_.push_back(friction_in(state, p));

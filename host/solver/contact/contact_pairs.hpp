@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "host/solver/contact/ccd_filter.hpp"
+#include "host/solver/contact/contact_shares.hpp"
 #include "host/solver/contact/friction_memory.hpp"
 #include "host/solver/state/state.hpp"
 #include "host/solver/terms/params.hpp"
@@ -20,7 +21,9 @@ public:
     /// @param gaps      must outlive this object
     /// @param area      rest area per particle [m^2]
     /// @param friction  Coulomb coefficient per particle [1]
-    ContactPairs(const ContactGaps& gaps, std::vector<double> area, std::vector<double> friction);
+    /// @param hardness  of contact, per particle, over that of its term [1]; empty: 1
+    ContactPairs(const ContactGaps& gaps, ContactShares shares, std::vector<double> area, std::vector<double> friction,
+                 std::vector<double> hardness = {});
 
     /// Writes pairs to the state, with what friction remembers of them. Areas are those at state.pos. Pairs that
     /// friction remembers are among them wherever they are now, so that the friction of a step depends on no search.
@@ -40,19 +43,23 @@ public:
 
     std::size_t bytes() const
     {
-        return (area_.capacity() + friction_.capacity()) * sizeof(double) + memory_.capacity() * sizeof(PairFriction);
+        return shares_.bytes() + (area_.capacity() + friction_.capacity() + hardness_.capacity()) * sizeof(double) +
+               memory_.capacity() * sizeof(PairFriction);
     }
 
 private:
     std::vector<PairCandidate> with_friction(const std::vector<PairCandidate>& near,
                                              const CrossingFlags& crossings) const;
     double area_of(const PairCandidate& candidate, const StraightStep& at) const;
+    double hardness_of(const PairCandidate& candidate) const;
     double friction_of(const PairKey& pair) const;
     void recall(State& state) const;
-    void remember(const State& state);
+    void remember(State& state);
+    void pass_on(State& state, int pair) const;
 
     const ContactGaps& gaps_;
-    std::vector<double> area_, friction_;  // per particle
+    ContactShares shares_;
+    std::vector<double> area_, friction_, hardness_;  // per particle
     FrictionMemory memory_;
 };
 

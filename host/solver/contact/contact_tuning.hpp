@@ -38,6 +38,18 @@ struct ContactTuning {
     // [1] Edges that cross at a smaller sine count less: the closest points of parallel edges jump. By hand.
     static constexpr double parallel_sine = 0.1;
 
+    // ContactShares, by hand on three cards that lie on each other without friction.
+    static constexpr double nearly_as_near = 0.06;  // [1] faces further away by this share take no part
+    // [1] Cosine of the largest angle between faces that are met in their planes beyond their edges as well. Where
+    // layers are folded more, Newton's method does not come to rest in stress_needles.
+    static constexpr double flat = 0.9962;
+    // [edge] Near an end edges count less. At 0.1 the layers of stress_stack do not come to rest.
+    static constexpr double edge_end = 0.02;
+    // [1] Cosines of the way to a vertex with the normal of a face that it is beyond: above it; at a rim, where the
+    // share of the face's plane has faded to the least, and where that of what is beside begins.
+    static constexpr double above = 0.906, rim_slant = 0.707, rim_beside = 0.423;
+    static constexpr double rim_least = 1e-3;  // [1] so that there is a barrier everywhere
+
     // Steps of pins. Below this share [1] the particles that follow pins are shortened one by one, and the pins then go
     // on by `most_ahead` [1] at most. Folds of the scene stress_ring were torn open without these limits.
     static constexpr float jammed = 0.05f;

@@ -74,6 +74,7 @@ void fill_faces(State& state, const Topology& topology, const Cloth& cloth, cons
 {
     const int fs = state.size.face_stride;
     const std::vector<int> panel = panel_of_faces(cloth);
+    std::fill(state.contact_hardness.begin(), state.contact_hardness.end(), real(1));
     for (int f = 0; f < int(topology.faces.size()); ++f) {
         const Fabric& fabric = *fabrics.fabric[panel[f]];
         const double area = rest_area(cloth, f);

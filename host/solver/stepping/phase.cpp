@@ -24,23 +24,33 @@ Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
     return topology;
 }
 
+Vec3 down(const Params& params)
+{
+    const auto& gravity = params.gravity;
+    return {gravity.acceleration_x, gravity.acceleration_y, gravity.acceleration_z};
+}
+
 Surroundings surroundings(const ClothModel& model, const PhaseOptions& options, BodyQuery* query,
                           const Topology& topology, double edge_length)
 {
     Surroundings around;
+    ContactHardness hardness;
+    if (options.local_stiffness && contact_stiffness(options.params) > 0)
+        hardness = local_hardness(topology, model.cloth, model.fabrics, model.bodies, down(options.params),
+                                  contact_stiffness(options.params), body_gap(options.params));
     around.contact_margin = options.contact_margin;
     around.pins.emplace(model.cloth, topology);
     around.air = options.air;
     if (query && required_fields(options.params)[std::size_t(Field::contact_normal)])
         around.bodies = std::make_shared<ClothBodyContact>(*query, model.bodies, topology, model.cloth, model.fabrics,
                                                            body_gap(options.params), options.contact_margin,
-                                                           meets_itself(options.params));
+                                                           meets_itself(options.params), hardness);
     if (meets_itself(options.params)) {
         const TraceScope scope("cloth_tree");
-        around.cloth =
-            std::make_unique<ClothContact>(topology, model.cloth, query ? model.bodies : std::vector<Body>{},
-                                           ContactGaps(topology, model.cloth, model.fabrics, cloth_gap(options.params)),
-                                           particle_friction(topology, model.cloth, model.fabrics));
+        around.cloth = std::make_unique<ClothContact>(
+            topology, model.cloth, query ? model.bodies : std::vector<Body>{},
+            ContactGaps(topology, model.cloth, model.fabrics, cloth_gap(options.params)),
+            particle_friction(topology, model.cloth, model.fabrics), std::move(hardness.of_pairs));
     }
     if (around.cloth && around.bodies)
         around.bodies->lift(around.cloth->crossings().pierced, lift_of_edge * edge_length);

@@ -21,7 +21,10 @@ struct PhaseOptions {
     bool float_solves = false;
     LinearOptions linear;
     double contact_margin = 0.03;  ///< See ClothBodyContact [m].
-    std::optional<Air> air;        ///< See Surroundings.
+    /// Contact is as stiff as each place asks; the terms' stiffness is that of the heaviest fabric where no body is
+    /// fast. False: it is that of all places.
+    bool local_stiffness = false;
+    std::optional<Air> air;  ///< See Surroundings.
 };
 
 /// One phase of a run, sewing or draping: a cloth's particles as a system, and what solves its steps.

@@ -5,6 +5,7 @@
 
 #include "host/parallel/launch.hpp"
 #include "host/solver/contact/anchors.hpp"
+#include "host/solver/state/planes.hpp"
 #include "host/solver/state/vectors.hpp"
 #include "host/solver/terms/face_air.hpp"
 
@@ -177,7 +178,14 @@ double System::longest_step(double room) const
 {
     const double way = 0.5 * (body_gap(params_) + around_.contact_margin);
     const double pinned = around_.pins ? around_.pins->longest_step(clock_.time, room, way) : room;
-    return around_.bodies ? around_.bodies->longest_step(clock_.time, pinned) : pinned;
+    if (!around_.bodies || around_.bodies->motion_end() <= clock_.time) return pinned;
+    const ConstPlanes x = vertex_planes(state_.size, state_.pos), v = vertex_planes(state_.size, state_.vel);
+    Box reach;  // of the cloth, if it goes on as it does
+    for (int k = 0; k < x.count; ++k) {
+        reach.extend(x(k));
+        reach.extend(x(k) + pinned * v(k));
+    }
+    return around_.bodies->longest_step(clock_.time, pinned, reach);
 }
 
 void System::place_boundary()

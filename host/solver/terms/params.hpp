@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "kernels/terms.h"
 #include "kernels/velocity_filters.h"
 
@@ -30,6 +32,13 @@ inline bool meets_bodies(const Params& p)
 
 /// True if the cloth meets itself, under whichever law of contact.
 inline bool meets_itself(const Params& p) { return p.cloth_contact.stiffness > 0 || p.cloth_repulsion.stiffness > 0; }
+
+/// Pressure scale of contact under the law in use [Pa]; 0 without contact by forces.
+inline double contact_stiffness(const Params& p)
+{
+    return std::max(
+        {p.body_contact.stiffness, p.body_repulsion.stiffness, p.cloth_contact.stiffness, p.cloth_repulsion.stiffness});
+}
 
 /// True if air acts on the cloth, moving or still.
 inline bool meets_air(const Params& p)

@@ -107,7 +107,7 @@ std::size_t gather_bytes(const State& state)
 std::size_t settle_friction_bytes(const State& state)
 {
     return pass_bytes(state, {Field::pos, Field::contact_normal, Field::contact_offset, Field::contact_area,
-                              Field::contact_friction}) +
+                              Field::contact_hardness, Field::contact_friction}) +
            2 * pass_bytes(state, {Field::friction_anchor, Field::friction_limit});
 }
 

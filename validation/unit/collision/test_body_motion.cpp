@@ -215,10 +215,12 @@ TEST_CASE("crossings of a moving body are those of the paths relative to the bod
 TEST_CASE("the longest step is the one that moves no body further than the given distance")
 {
     BodyQuery query({body_of(sphere_mesh({0, 0, 0}, 0.3, 3), tumble())}, everywhere);
-    CHECK(query.longest_step(2, 0.5, 0.01) == 0.5);
-    const double dt = query.longest_step(0.5, 0.5, 0.01);
+    CHECK(query.longest_step(2, 0.5, 0.01, everywhere) == 0.5);
+    const double dt = query.longest_step(0.5, 0.5, 0.01, everywhere);
     CHECK(dt < 0.02);
     CHECK(dt > 0.001);
+    const Vec3 far(20, 0, 0);
+    CHECK(query.longest_step(0.5, 0.5, 0.01, {far, far + Vec3::Ones()}) == 0.5);
 }
 
 TEST_CASE("the mannequin raises its arms and leaves its trunk where it is")

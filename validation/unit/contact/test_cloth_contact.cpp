@@ -95,7 +95,7 @@ FrictionMemory in_state(const State& s)
     const int ps = s.size.pair_stride;
     for (int p = 0; p < s.size.pair_count; ++p) {
         if (s.pair_limit[p] == 0) continue;
-        PairFriction friction{{s.pair_edges[p] != 0, {}}, {}, {}, {}, s.pair_limit[p]};
+        PairFriction friction{{s.pair_edges[p] == 1, {}}, {}, {}, {}, s.pair_limit[p]};
         for (int i = 0; i < 4; ++i) friction.pair.corner[i] = s.pair_vertex[i * ps + p];
         for (int i = 0; i < 4; ++i) friction.weight[i] = s.pair_held_weight[i * ps + p];
         for (int c = 0; c < 3; ++c) friction.normal[c] = s.pair_held_normal[c * ps + p];

@@ -22,7 +22,8 @@ struct TouchingSheets : FilteredSheets {
 
     TouchingSheets()
         : FilteredSheets(sheets_above_each_other(3, side, spacing, 0.7 * gap), gap, spacing),
-          pairs(gaps, std::vector<double>(crossings.inside.size(), spacing * spacing),
+          pairs(gaps, ContactShares(topology.faces, topology.particle_count),
+                std::vector<double>(crossings.inside.size(), spacing * spacing),
                 std::vector<double>(crossings.inside.size(), 0.5))
     {
         filter.refresh({state.pos, nullptr, stride(), bodies()});
@@ -43,7 +44,7 @@ struct TouchingSheets : FilteredSheets {
     {
         std::vector<PairKey> result;
         for (int p = 0; p < state.size.pair_count; ++p) {
-            PairKey key{state.pair_edges[p] != 0, {}};
+            PairKey key{state.pair_edges[p] == 1, {}};
             for (int i = 0; i < 4; ++i) key.corner[i] = state.pair_vertex[i * state.size.pair_stride + p];
             result.push_back(key);
         }

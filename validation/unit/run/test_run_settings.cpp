@@ -12,7 +12,8 @@ namespace {
 
 std::string chosen(const std::string& scene, const std::vector<std::string>& overrides)
 {
-    return text_of(integrator_of(read_scene(scene, overrides)));
+    const Scene read = read_scene(scene, overrides);
+    return text_of(integrator_of(read, build_scene_model(read).cloth_model));
 }
 
 }  // namespace
@@ -42,7 +43,8 @@ TEST_CASE("the integrators of a drape name the one that takes over on the way to
 {
     using Names = std::vector<std::string>;
     const auto names = [](const std::string& scene, const std::vector<std::string>& overrides) {
-        return drape_integrators(read_scene(scene, overrides));
+        const Scene read = read_scene(scene, overrides);
+        return drape_integrators(read, build_scene_model(read).cloth_model);
     };
     const std::string rest = "solver.until=equilibrium";
     CHECK(names("builtin:sphere", {rest}) == Names{"bdf2", "implicit_euler"});
