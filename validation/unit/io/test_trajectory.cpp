@@ -277,7 +277,7 @@ TEST_CASE("a summary holds every documented key, and null for unknown values")
     summary.status = RunStatus::time_limit;
     summary.self_intersections = 0;
     summary.residual = 0.25;
-    summary.kernels = {{"membrane", 3, 0.5, 300, 9000}};
+    summary.kernels = {{"membrane", 3, 0.5, 0.4, 300, 9000}};
     summary.panels = {{"fr\xf6nt", 0.01, -0.02}};  // Latin-1, as in an old pattern file.
     const Folder folder;
     write_summary(folder.file("summary.json"), summary);
