@@ -173,7 +173,7 @@ std::vector<std::array<int, 5>> close_pairs(const std::vector<PairCandidate>& ca
     return keys;
 }
 
-// Positions go to and fro between the two shapes, so that each look has something new to find. As contact does, the
+// Positions go to and fro between the two shapes, so that each look has something new to find. The
 // tree searches anew in each step; within it candidates serve on where they are proved to be complete.
 void measure_own(const Sheet& sheet, double slack, const BroadPhaseOptions& options, BroadPhaseResult& result,
                  std::vector<std::array<int, 5>>& pairs)

@@ -142,22 +142,26 @@ bool ClothTree::lies_flat(const double* from, const double* move, int stride) co
     return range.stretch_bound() > Tuning::skip_flatness;
 }
 
-void ClothTree::refit_gradients()
+// @param skipped_only  only those of the skipped subtrees, which are all that tells whether a search is needed
+void ClothTree::refit_gradients(bool skipped_only)
 {
+    if (skipped_only && skipped_.empty()) return;
+    const auto is_asked = [&](const std::vector<char>& flags, int k) { return !skipped_only || flags[k]; };
     for_each_part(int(surface_.faces.size()), [&](int f) {
         const Face& face = surface_.faces[f];
-        if (face[0] < 0) return;
+        if (face[0] < 0 || !is_asked(near_skipped_, f)) return;
         face_gradients_[f].clear();
         for (const std::vector<Vec3>* x : {&start_, &end_})
             add_gradient(face_gradients_[f], f, {(*x)[face[0]], (*x)[face[1]], (*x)[face[2]]});
     });
     for_each_part(int(nodes_.size()), [&](int n) {
+        if (!is_asked(in_skipped_, n)) return;
         node_gradients_[n].clear();
         for (int k = 0; k < nodes_[n].near_count; ++k)
             node_gradients_[n].add(face_gradients_[near_[nodes_[n].first_near + k]]);
     });
     for (int n = int(nodes_.size()) - 1; n >= 0; --n)
-        if (nodes_[n].right > 0 && nodes_[n].may_be_flat) {
+        if (nodes_[n].right > 0 && nodes_[n].may_be_flat && is_asked(in_skipped_, n)) {
             node_gradients_[n].add(node_gradients_[n + 1]);
             node_gradients_[n].add(node_gradients_[nodes_[n].right]);
         }
@@ -268,9 +272,9 @@ bool ClothTree::cover(const double* from, const double* move, int stride, const 
         return changed;
     }
     set_frame(from, move, stride, bodies);
-    refit_gradients();
     const bool bodies_as_before = !bodies.moves && bodies.version == body_version_;
     const bool comparable = valid_ && reach <= reach_ && body_reach <= body_reach_ && bodies_as_before;
+    if (comparable) refit_gradients(true);
     const Unknown unknown = comparable ? mark_unknown() : Unknown::all;
     if (unknown == Unknown::nothing) {
         ++counts_.reused;
@@ -286,6 +290,7 @@ bool ClothTree::cover(const double* from, const double* move, int stride, const 
     body_reach_ = body_reach;
     for_each_part(int(start_.size()), [&](int k) { search_anew(k, k >= particles_ && !bodies.moves); });
     refit_boxes(bodies.moves, bodies_too);
+    refit_gradients(false);
     // The candidates along the move of a body are not those around it at rest, so the next call must search.
     body_version_ = bodies.moves ? -1 : bodies.version;
     search_all();
@@ -337,8 +342,8 @@ std::size_t ClothTree::bytes() const
            surface_.faces.size() * (sizeof(Face) + 3 * sizeof(Vec2) + sizeof(Sweep) + sizeof(Gradients) + 52) +
            edges_.size() * (sizeof(Sweep) + 2 * sizeof(int)) + near_.size() * sizeof(int) +
            start_.size() * (4 * sizeof(Vec3) + sizeof(Sweep) + sizeof(float)) + marks_.size() + face_marks_.size() +
-           node_marks_.size() + node_skipped_.size() + kept_from_.capacity() * sizeof(int) +
-           candidates_.capacity() * sizeof(PairCandidate);
+           node_marks_.size() + near_skipped_.size() + in_skipped_.size() + node_skipped_.size() +
+           kept_from_.capacity() * sizeof(int) + candidates_.capacity() * sizeof(PairCandidate);
 }
 
 // A mesh has three edges for two faces, and a leaf has from half of what it may hold to all of it.

@@ -175,11 +175,12 @@ private:
     double fitted_fraction(const std::vector<Vec3>& at) const;
     void add_gradient(Gradients& range, int face, const std::array<Vec3, 3>& corners) const;
     bool lies_flat(const double* from, const double* move, int stride) const;
-    void refit_gradients();
+    void refit_gradients(bool skipped_only);
     void refit_boxes(bool bodies_move, bool bodies_too);
     void search_all();
     void search_marked();
     void traverse(SearchCounts& counts);
+    void note_skipped();
     void visit(NodePair pair, std::vector<NodePair>& stack, Findings& found) const;
     FacesNear faces_near(const Node& leaf, const Sweep& box) const;
     void offer_pairs(int face_a, int face_b, Findings& found) const;
@@ -222,7 +223,8 @@ private:
     std::vector<int> skipped_;  // nodes skipped as flat
     // Of a partial search: why particles are looked at, and what has such corners.
     std::vector<char> marks_, face_marks_, node_marks_;
-    std::vector<char> node_skipped_;  // per node, in a partial search
+    std::vector<char> node_skipped_;               // per node, in a partial search
+    std::vector<char> in_skipped_, near_skipped_;  // nodes of skipped subtrees, and the faces whose gradients they need
     std::vector<int> kept_from_;
     int partial_since_ = 0;       // partial searches since the last one for all corners
     bool partial_ = false;        // the search that runs

@@ -45,6 +45,7 @@ void ClothTree::set_memory(TreeMemory memory)
     std::copy(memory.slack.begin(), memory.slack.end(), slack_of_.begin());
     skipped_ = std::move(memory.skipped);
     candidates_ = std::move(memory.candidates);
+    note_skipped();
 }
 
 }  // namespace selvage

@@ -17,6 +17,7 @@ void ClothTree::search_all()
     candidates_.clear();
     skipped_.clear();
     traverse(counts_.whole);
+    note_skipped();
     add_sleeping_candidates();
 }
 
@@ -46,6 +47,19 @@ void ClothTree::search_marked()
     node_skipped_.assign(nodes_.size(), 0);
     for (int n : skipped_) node_skipped_[n] = 1;
     traverse(counts_.partial);
+    note_skipped();
+}
+
+void ClothTree::note_skipped()
+{
+    in_skipped_.assign(nodes_.size(), 0);
+    near_skipped_.assign(surface_.faces.size(), 0);
+    for (int n : skipped_) in_skipped_[n] = 1;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        if (!in_skipped_[n]) continue;
+        if (nodes_[n].right > 0) in_skipped_[n + 1] = in_skipped_[nodes_[n].right] = 1;
+        for (int k = 0; k < nodes_[n].near_count; ++k) near_skipped_[near_[nodes_[n].first_near + k]] = 1;
+    }
 }
 
 // Adds what is found to the candidates and to the skipped subtrees.
@@ -101,7 +115,7 @@ void ClothTree::visit(NodePair pair, std::vector<NodePair>& stack, Findings& fou
     if (partial_ && !node_marks_[a] && !node_marks_[b]) return;
     if (a == b) {
         if (is_body(a) || (partial_ && node_skipped_[a])) return;
-        if (is_flat(a, ClothTreeTuning::skip_flatness)) {
+        if ((!partial_ || in_skipped_[a]) && is_flat(a, ClothTreeTuning::skip_flatness)) {
             found.skipped.push_back(a);
         } else if (na.right > 0) {
             stack.insert(stack.end(), {{a + 1, a + 1}, {na.right, na.right}, {a + 1, na.right}});

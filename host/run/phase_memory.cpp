@@ -44,13 +44,11 @@ std::vector<PairCandidate> candidates_of(const CheckpointLoader& load, const std
     return candidates;
 }
 
-// @param whole  with what only schemes carry on that search at times of their own; a minimisation begins with a search
-void save_searches(const CheckpointSaver& save, const CcdMemory& memory, bool whole)
+void save_searches(const CheckpointSaver& save, const CcdMemory& memory)
 {
     save_candidates(save, "searches.asleep", memory.tree.asleep);
-    const bool valid = whole && memory.tree.valid;
-    save("searches.valid", int(valid));
-    if (!valid) return;
+    save("searches.valid", int(memory.tree.valid));
+    if (!memory.tree.valid) return;
     save("searches.start", memory.tree.start);
     save("searches.end", memory.tree.end);
     save("searches.slack", memory.tree.slack);
@@ -94,7 +92,7 @@ CcdMemory searches_of(const CheckpointLoader& load)
     return memory;
 }
 
-void save_cloth_contact(const CheckpointSaver& save, const ClothContact& contact, bool whole)
+void save_cloth_contact(const CheckpointSaver& save, const ClothContact& contact)
 {
     const PackedFriction friction = pack(contact.memory());
     save("pair_keys", friction.keys);
@@ -102,7 +100,7 @@ void save_cloth_contact(const CheckpointSaver& save, const ClothContact& contact
     save("cloth_inside", contact.crossings().inside);
     save("cloth_tangled", contact.crossings().tangled);
     save("cloth_pierced", contact.crossings().pierced);
-    save_searches(save, contact.searches(), whole);
+    save_searches(save, contact.searches());
 }
 
 // Pairs that friction remembers are listed wherever they are, so they must be of this cloth.
@@ -267,7 +265,7 @@ void save_phase(Checkpoint& checkpoint, const Phase& phase, Integrator& integrat
     visit_kept(state, save);
     visit_history(integrator, save);
     save_found(save, state);
-    if (system.cloth_contact()) save_cloth_contact(save, *system.cloth_contact(), integrator.info().is_explicit);
+    if (system.cloth_contact()) save_cloth_contact(save, *system.cloth_contact());
     save("sleeps", int(!state.awake.all));
     if (state.awake.all) return;
     save("is_awake", state.awake.is_awake);

@@ -92,7 +92,10 @@ void CcdFilter::measure_distances(const StraightStep& step, bool changed)
         for (std::size_t k = 0; k < kept; ++k) distances_[k] = distances_[kept_from[k]];
     distances_.resize(candidates.size());
     ++counts_.refreshes;
-    if (candidates.empty()) return;
+    if (candidates.empty()) {
+        last_position_.clear();  // where corners were means nothing to the next candidates, which are new
+        return;
+    }
     measure_displacements(step);
     for_each_item(int(candidates.size()), [&, this](int k) {
         const PairCandidate& candidate = candidates[k];

@@ -45,8 +45,8 @@ public:
     /// Treats particles as at rest. @param is_awake  per particle; null: all move
     void let_sleep(const std::vector<char>* is_awake) { filter_.let_sleep(is_awake); }
 
-    /// Forgets what earlier steps have found, so that a step depends on the state alone and a resumed run repeats it.
-    void start_step() { filter_.forget(); }
+    /// Forgets what has been found, where the cloth starts elsewhere.
+    void forget_searches() { filter_.forget(); }
 
     /// Lists the pairs that are in contact at state.pos.
     void update(State& state);

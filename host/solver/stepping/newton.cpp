@@ -265,7 +265,6 @@ NewtonReport Newton::minimise(double span, const std::vector<real>& origin, cons
                               const NewtonOptions& options, const std::vector<real>* expected)
 {
     State& state = system_.state();
-    system_.forget_searches();
     scale_difference(state.vel, 1 / span, state.pos, origin);
     Minimisation minimisation(system_, linear_, vectors_, {span, 1 / (span * span), origin, target}, options);
     minimisation.guess(expected);
@@ -277,7 +276,6 @@ NewtonReport Newton::relax(const NewtonOptions& options)
     State& state = system_.state();
     vectors_.start = state.pos;
     clear(state.vel);
-    system_.forget_searches();
     system_.refresh_pairs();
     return Minimisation(system_, linear_, vectors_, {0, 0, vectors_.start, vectors_.start}, options).iterate(true);
 }

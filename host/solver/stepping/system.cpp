@@ -140,7 +140,7 @@ void System::refresh_pairs()
 
 void System::forget_searches()
 {
-    if (around_.cloth) around_.cloth->start_step();
+    if (around_.cloth) around_.cloth->forget_searches();
 }
 
 void System::limit_by_pairs(std::vector<real>& move, bool uniform)
