@@ -74,7 +74,8 @@ void run_once(ContactCost& cost, const ContactScene& scene)
     std::vector<std::string> arguments = scene.arguments;
     for (const char* word : {"--threads", "1", "--set", "output.picture=false"}) arguments.push_back(word);
     const ChildRun run = run_child(cost.program, arguments);
-    if (!run.finished()) throw std::runtime_error("bench contact: " + scene.name + ": " + run.errors);
+    // What did not come to rest in time has its cost as well.
+    if (run.summary.is_null()) throw std::runtime_error("bench contact: " + scene.name + ": " + run.errors);
     const Json summary = run.summary;
     const auto seconds = [&](const char* kernel) { return of_kernel(summary, kernel, "processor_seconds"); };
     cost.contact_s = std::min(cost.contact_s, seconds("cloth_contact_pairs") + seconds("cloth_contact_way") +
