@@ -31,6 +31,14 @@ double body_reach(const ContactGaps& gaps, const MovingBoundary& boundary)
     return boundary.moves() ? gaps.largest() : gaps.largest_of_bodies();
 }
 
+std::vector<int> particle_pieces(const Topology& topology, const Cloth& cloth)
+{
+    const std::vector<int> piece = pieces_of(cloth);
+    std::vector<int> result(std::size_t(topology.particle_count));
+    for (std::size_t v = 0; v < piece.size(); ++v) result[topology.particle_of[v]] = piece[v];
+    return result;
+}
+
 // A third of the rest area of every adjacent face.
 std::vector<double> particle_areas(const Topology& topology, const Cloth& cloth)
 {
@@ -52,7 +60,7 @@ ClothContact::ClothContact(const Topology& topology, const Cloth& cloth, const s
       tangles_(topology.faces, topology.particle_count, boundary_.bodies()),
       filter_(whole_surface(topology, cloth, boundary_.bodies()), ContactTuning::tree_slack * typical_edge(cloth),
               gaps_, body_reach(gaps_, boundary_), tangles_.flags()),
-      pairs_(gaps_, ContactShares(topology.faces, topology.particle_count), particle_areas(topology, cloth),
+      pairs_(gaps_, ContactShares(topology.faces, particle_pieces(topology, cloth)), particle_areas(topology, cloth),
              std::move(friction), std::move(hardness))
 {
 }

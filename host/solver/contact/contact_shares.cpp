@@ -20,8 +20,6 @@ double smooth_step(double x, double from, double to)
     return s * s * (3 - 2 * s);
 }
 
-bool is_of_layer(const PairCandidate& pair) { return !pair.edges && !has_body(pair); }
-
 // Whether two pairs are of one vertex, with faces that have a corner in common.
 bool are_neighbours(const PairCandidate& a, const PairCandidate& b)
 {
@@ -48,8 +46,8 @@ double share_of_edges(const PairCorners& x)
 
 }  // namespace
 
-ContactShares::ContactShares(const std::vector<Face>& faces, int particle_count)
-    : faces_(faces), first_(std::size_t(particle_count) + 1), on_rim_(std::size_t(particle_count))
+ContactShares::ContactShares(const std::vector<Face>& faces, std::vector<int> piece)
+    : faces_(faces), piece_(std::move(piece)), first_(piece_.size() + 1), on_rim_(piece_.size())
 {
     for (const Face& f : faces_)
         for (int v : f) ++first_[std::size_t(v) + 1];
@@ -90,39 +88,54 @@ ContactShares::Place ContactShares::place_of(const PairCandidate& pair, const St
     return place;
 }
 
+bool ContactShares::is_shared(const PairCandidate& pair) const
+{
+    return !has_body(pair) && piece_[pair.corner[0]] != piece_[pair.corner[3]];
+}
+
+// Those faces that are nearly as near as the nearest have a vertex between them, so that it is passed on smoothly.
+ContactShares::Share ContactShares::share_of(const std::vector<PairCandidate>& pairs, const std::vector<Place>& places,
+                                             int p, const StraightStep& at) const
+{
+    const auto of_vertex = [&](int q) {
+        return q >= 0 && q < int(pairs.size()) && !pairs[q].edges && pairs[q].corner[0] == pairs[p].corner[0];
+    };
+    int first = p, end = p + 1;
+    while (of_vertex(first - 1)) --first;
+    while (of_vertex(end)) ++end;
+    double nearest = places[p].distance, all = 0, flatness = 1;  // of those that take part
+    for (int q = first; q < end; ++q)
+        if (are_neighbours(pairs[p], pairs[q])) nearest = std::min(nearest, places[q].distance);
+    const auto weight = [&](int q) {
+        return 1 - smooth_step(places[q].distance, nearest, (1 + Tuning::nearly_as_near) * nearest);
+    };
+    const Vec3 normal = face_normal(at.start_of(pairs[p]));
+    for (int q = first; q < end; ++q) {
+        if (!are_neighbours(pairs[p], pairs[q]) || weight(q) == 0) continue;
+        all += weight(q);
+        flatness = std::min(flatness, std::abs(normal.dot(face_normal(at.start_of(pairs[q])))));
+    }
+    const bool beyond = !places[p].inside && places[p].cosine > Tuning::above && flatness > Tuning::flat;
+    Share share = places[p].rim ? at_rim(places[p].cosine) : Share{1, beyond};
+    const double shared = smooth_step(flatness, Tuning::folded, Tuning::flat);
+    share.part *= shared * weight(p) / all + 1 - shared;
+    return share;
+}
+
 std::vector<ContactShares::Share> ContactShares::of(const std::vector<PairCandidate>& pairs,
                                                     const StraightStep& at) const
 {
-    const int count = int(pairs.size());
     std::vector<Share> shares(pairs.size());
     std::vector<Place> places(pairs.size());
-    for_each_item(count, [&, this](int p) {
-        if (is_of_layer(pairs[p])) places[p] = place_of(pairs[p], at);
-        if (pairs[p].edges && !has_body(pairs[p])) shares[p].part = share_of_edges(at.start_of(pairs[p]));
+    for_each_item(int(pairs.size()), [&, this](int p) {
+        if (!pairs[p].edges && is_shared(pairs[p])) places[p] = place_of(pairs[p], at);
     });
-    for_each_item(count, [&](int p) {
-        if (!is_of_layer(pairs[p])) return;
-        const int v = pairs[p].corner[0];
-        int first = p, end = p + 1;  // the vertex's pairs
-        while (first > 0 && is_of_layer(pairs[first - 1]) && pairs[first - 1].corner[0] == v) --first;
-        while (end < count && is_of_layer(pairs[end]) && pairs[end].corner[0] == v) ++end;
-        double nearest = places[p].distance;
-        for (int q = first; q < end; ++q)
-            if (are_neighbours(pairs[p], pairs[q])) nearest = std::min(nearest, places[q].distance);
-        // Those that are nearly as near as the nearest have it between them, so that shares are passed on smoothly.
-        const auto weight = [&](int q) {
-            return 1 - smooth_step(places[q].distance, nearest, (1 + Tuning::nearly_as_near) * nearest);
-        };
-        double all = 0, flatness = 1;  // of those that take part
-        const Vec3 normal = face_normal(at.start_of(pairs[p]));
-        for (int q = first; q < end; ++q) {
-            if (!are_neighbours(pairs[p], pairs[q]) || weight(q) == 0) continue;
-            all += weight(q);
-            flatness = std::min(flatness, std::abs(normal.dot(face_normal(at.start_of(pairs[q])))));
-        }
-        const bool beyond = !places[p].inside && places[p].cosine > Tuning::above && flatness > Tuning::flat;
-        shares[p] = places[p].rim ? at_rim(places[p].cosine) : Share{1, beyond};
-        shares[p].part *= weight(p) / all;
+    for_each_item(int(pairs.size()), [&, this](int p) {
+        if (!is_shared(pairs[p])) return;
+        if (pairs[p].edges)
+            shares[p].part = share_of_edges(at.start_of(pairs[p]));
+        else
+            shares[p] = share_of(pairs, places, p, at);
     });
     return shares;
 }

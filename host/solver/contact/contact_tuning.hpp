@@ -40,9 +40,9 @@ struct ContactTuning {
 
     // ContactShares, by hand on three cards that lie on each other without friction.
     static constexpr double nearly_as_near = 0.06;  // [1] faces further away by this share take no part
-    // [1] Cosine of the largest angle between faces that are met in their planes beyond their edges as well. Where
-    // layers are folded more, Newton's method does not come to rest in stress_needles.
-    static constexpr double flat = 0.9962;
+    // [1] Cosines of the largest angle between faces that take part: where their planes are met beyond their edges as
+    // well, and where pairs count whole again. With planes in folds stress_needles does not come to rest.
+    static constexpr double flat = 0.9962, folded = 0.966;
     // [edge] Near an end edges count less. At 0.1 the layers of stress_stack do not come to rest.
     static constexpr double edge_end = 0.02;
     // [1] Cosines of the way to a vertex with the normal of a face that it is beyond: above it; at a rim, where the

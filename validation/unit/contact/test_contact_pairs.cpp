@@ -22,7 +22,7 @@ struct TouchingSheets : FilteredSheets {
 
     TouchingSheets()
         : FilteredSheets(sheets_above_each_other(3, side, spacing, 0.7 * gap), gap, spacing),
-          pairs(gaps, ContactShares(topology.faces, topology.particle_count),
+          pairs(gaps, ContactShares(topology.faces, pieces_of(cloth)),
                 std::vector<double>(crossings.inside.size(), spacing * spacing),
                 std::vector<double>(crossings.inside.size(), 0.5))
     {

@@ -28,7 +28,9 @@ Push push_at(const Vec3& vertex)
     }
     const std::vector<Vec3> none;
     const StraightStep at{x, nullptr, v + 1, {none}};
-    const ContactShares shares(cloth.faces, v + 1);
+    std::vector<int> piece(std::size_t(v) + 1);
+    piece.back() = 1;
+    const ContactShares shares(cloth.faces, piece);
     std::vector<PairCandidate> pairs;
     for (const Face& f : cloth.faces) {
         const PairCandidate pair{{v, f[0], f[1], f[2]}, false};
