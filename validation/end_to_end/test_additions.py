@@ -98,7 +98,7 @@ std::vector<Vec3> moved(const std::string& integrator)
     const ClothModel& cloth = model.cloth_model;
     Profile profile;
     Phase phase(cloth, phase_options(scene, model, false), nullptr, profile, cloth.cloth.positions, {});
-    const auto scheme = make_integrator(word_of(integrator_of(scene)), phase);
+    const auto scheme = make_integrator(word_of(integrator_of(scene, cloth)), phase);
     for (int step = 0; step < 20; ++step) scheme->step(1e-4, {});
     return phase.positions();
 }
