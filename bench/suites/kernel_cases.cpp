@@ -75,7 +75,7 @@ KernelCase operation_case(KernelCloth& cloth, std::string name, LinearSolver& so
         evaluate_stiffness(cloth);
         std::vector<real> solution(cloth.state.force.size());
         solver.assemble(cloth.state, inertia);
-        solver.solve(cloth.state.force.data(), 0.5, solution.data());
+        solver.solve(cloth.state.force.data(), {.residual = 0.5}, solution.data());
     };
     return kernel;
 }

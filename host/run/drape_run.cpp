@@ -136,9 +136,31 @@ void DrapeRun::note_stretch(const StepEvent& event)
     largest = now;
 }
 
+void DrapeRun::note_accuracy(const StepEvent& event)
+{
+    MotionAccuracy& accuracy = progress_.counters.accuracy;
+    if (event.left >= 0) {
+        ++accuracy.steps;
+        accuracy.unsolved += !event.solved;
+        accuracy.sum_left += event.left;
+        if (event.left > accuracy.largest_left) {
+            accuracy.largest_left = event.left;
+            accuracy.left_time = event.time;
+        }
+    }
+    if (event.error < 0 || progress_.stage != RunStage::drape || settings_.until.equilibrium) return;
+    ++accuracy.estimates;
+    accuracy.sum_error += event.error;
+    if (event.error > accuracy.largest_error) {
+        accuracy.largest_error = event.error;
+        accuracy.error_time = event.time;
+    }
+}
+
 bool DrapeRun::after_step(const StepEvent& event)
 {
     note_stability(event);
+    note_accuracy(event);
     note_stretch(event);
     RunCounters& counters = progress_.counters;
     ++counters.steps;

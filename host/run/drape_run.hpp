@@ -42,6 +42,7 @@ private:
     bool must_stop() const;
     void note_stability(const StepEvent& event);
     void note_stretch(const StepEvent& event);
+    void note_accuracy(const StepEvent& event);
     double elapsed() const;
     RunOutcome conclude_at_rest();
     RunOutcome conclude(RunStatus status, std::string message);

@@ -70,6 +70,14 @@ void explain_torn(const DivergenceFacts& facts, FailureReport& report)
     if (report.cure.empty()) report.cure = "a stiffer fabric (stretch_weft, stretch_warp)";
 }
 
+// What pushes cloth out of bodies and out of itself then pushes against each other.
+void explain_caught(const DivergenceFacts& facts, FailureReport& report)
+{
+    report.cause = fmt::format(
+        "cloth is inside a body or crosses itself or a body, in {} vertices or pairs of triangles", facts.crossings);
+    report.cure = "start the cloth outside the bodies and uncrossed (`selvage check` shows where it is not)";
+}
+
 // Whether cloth is between two bodies of which one moves.
 bool explain_closing(const DivergenceFacts& facts, FailureReport& report)
 {
@@ -90,6 +98,7 @@ void explain_unsolved(const DivergenceFacts& facts, FailureReport& report)
 {
     const BodyAt* moving = fastest_of(facts.bodies);
     if (explain_closing(facts, report)) return;
+    if (facts.crossings > 0) return explain_caught(facts, report);
     if (facts.stretch > ReportTuning::torn) return explain_torn(facts, report);
     if (moving && moving->speed * facts.step.longest > facts.gap)
         report.cause = fmt::format("the body `{}` moves at {:.3g} m/s, {} in a step", moving->name, moving->speed,
@@ -308,6 +317,14 @@ int largest_at(const State& state, const std::vector<real>& field)
     return at;
 }
 
+// Pairs of triangles that intersect, and vertices inside bodies, where contact of cloth looks for them.
+int crossings_of(const Phase& phase)
+{
+    if (!phase.cloth_contact()) return 0;
+    const ClothContactCounts counts = phase.cloth_contact()->counts();
+    return counts.tangles + counts.inside;
+}
+
 }  // namespace
 
 DivergenceFacts divergence_facts(const SceneModel& model, const Phase& phase, const std::string& stage,
@@ -335,6 +352,7 @@ DivergenceFacts divergence_facts(const SceneModel& model, const Phase& phase, co
     facts.holds = !cloth.cloth.pinned.empty();
     facts.pins_move = !cloth.cloth.pin_motions.empty();
     facts.is_explicit = integrator.is_explicit;
+    facts.crossings = crossings_of(phase);
     return facts;
 }
 
@@ -350,10 +368,7 @@ UnrestFacts unrest_facts(const SceneModel& model, const Phase& phase, double res
     facts.speed = vertex_planes(state.size, state.vel)(fastest).norm();
     facts.bodies = bodies_seen_from(model.cloth_model, facts.time, position_of(state, pulled));
     facts.gap = body_gap(phase.params());
-    if (phase.cloth_contact()) {
-        const ClothContactCounts counts = phase.cloth_contact()->counts();
-        facts.crossings = counts.tangles + counts.inside;
-    }
+    facts.crossings = crossings_of(phase);
     return facts;
 }
 

@@ -48,6 +48,7 @@ struct DivergenceFacts {
     bool holds = false;                   ///< Vertices are held.
     bool pins_move = false;               ///< And move.
     bool is_explicit = false;             ///< The integrator is.
+    int crossings = 0;                    ///< Pairs of triangles that intersect, and vertices inside bodies.
 };
 
 FailureReport explain(const DivergenceFacts& facts);

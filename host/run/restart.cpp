@@ -90,6 +90,22 @@ void visit_draping(Progress& draping, const Visit& visit)
     visit("draping.asleep", asleep);
 }
 
+template <class Accuracy, class Visit>
+void visit_accuracy(Accuracy& accuracy, const Visit& visit)
+{
+    auto& [steps, unsolved, largest_left, left_time, sum_left, estimates, largest_error, error_time, sum_error] =
+        accuracy;
+    visit("accuracy.steps", steps);
+    visit("accuracy.unsolved", unsolved);
+    visit("accuracy.largest_left", largest_left);
+    visit("accuracy.left_time", left_time);
+    visit("accuracy.sum_left", sum_left);
+    visit("accuracy.estimates", estimates);
+    visit("accuracy.largest_error", largest_error);
+    visit("accuracy.error_time", error_time);
+    visit("accuracy.sum_error", sum_error);
+}
+
 template <class Progress, class Visit>
 void visit_progress(Progress& progress, const Visit& visit)
 {
@@ -102,11 +118,12 @@ void visit_progress(Progress& progress, const Visit& visit)
     visit_steps(press_steps, "pressing", visit);
     visit_draping(draping, visit);
     // Seconds have names of their own, integrators are words.
-    auto& [steps, newton_iterations, linear_iterations, simulated, seconds, integrators, largest] = counters;
+    auto& [steps, newton_iterations, linear_iterations, simulated, seconds, integrators, accuracy, largest] = counters;
     visit("counters.steps", steps);
     visit("counters.newton_iterations", newton_iterations);
     visit("counters.linear_iterations", linear_iterations);
     visit("counters.simulated", simulated);
+    visit_accuracy(accuracy, visit);
     auto& [iterations_since_frame, relaxed_since_frame] = frame;
     visit("frame.iterations", iterations_since_frame);
     visit("frame.relaxed", relaxed_since_frame);

@@ -155,6 +155,8 @@ void RunRecorder::report(RunStage stage, const StepEvent& event, int steps)
     state.step = steps;
     state.frames = frame_count();
     if (!sewing_phase_) state.residual = event.residual;  // while sewing it is a gap
+    if (event.left >= 0) state.left = event.left;
+    if (event.error >= 0) state.error = event.error;
     progress_->update(state);
 }
 
@@ -295,6 +297,8 @@ std::vector<Finding> RunRecorder::conclude(RunStatus status, const LastState& la
     s.active = plan.active;
     for (const SkippedFeature& f : plan.skipped) s.skipped.push_back({f.name, f.reason});
     s.stability = stability;
+    s.accuracy = counters.accuracy;
+    s.step_tolerance = settings_.drape.step_tolerance;
     for (const CoarseStage& c : coarse_stages)
         s.coarse_start.push_back({c.vertices, c.newton_iterations, c.linear_iterations, c.residual, c.wall_seconds,
                                   c.intersections, c.used});

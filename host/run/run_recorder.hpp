@@ -28,6 +28,7 @@ struct RunCounters {
     double simulated = 0;                  ///< All phases [s].
     std::map<std::string, double> phases;  ///< Wall seconds of each phase.
     std::vector<std::string> integrators;  ///< That have moved the cloth while it draped, in their order.
+    MotionAccuracy accuracy;               ///< Of the steps of a timed motion.
     FaceStretch largest;                   ///< Stretch after any step of the drape.
 };
 

@@ -24,7 +24,7 @@ constexpr int couplings_per_hinge = 28;
 std::size_t solver_bytes(const Scene& scene, const ClothModel& model, const Topology& topology, const mesh_sizes& size,
                          const PhaseOptions& options, const FieldSet& fields)
 {
-    const std::size_t scalar = solve_precision(scene, model.cloth) == PrecisionChoice::in_float ? 4 : 8;
+    const std::size_t scalar = solve_precision(scene, model) == PrecisionChoice::in_float ? 4 : 8;
     std::size_t places = 0;
 #define ADD_PLACES(kind, corners)                 \
     if (fields[std::size_t(Field::kind##_slots)]) \

@@ -41,7 +41,7 @@ RunSettings make_run_settings(const Scene& scene, const SceneModel& model);
 PhaseOptions phase_options(const Scene& scene, const SceneModel& model, bool sewing);
 
 /// Precision of the linear solves: solver.precision, or what this cloth needs.
-PrecisionChoice solve_precision(const Scene& scene, const Cloth& cloth);
+PrecisionChoice solve_precision(const Scene& scene, const ClothModel& model);
 
 /// The integrator that moves the cloth while it drapes: solver.integrator, or what `bench work-precision` finds best:
 /// bdf2 for motions without bodies, implicit_euler with them; on the way to rest static where the way does not matter

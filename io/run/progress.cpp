@@ -120,6 +120,8 @@ void ProgressReport::write_line(const ProgressState& state, double wall, double 
                                          {"time", number(state.time)},
                                          {"step", state.step},
                                          {"residual", number(state.residual)},
+                                         {"left", number(state.left)},
+                                         {"time_error_m", number(state.error)},
                                          {"eta_s", number(seconds_left)},
                                          {"frames", state.frames},
                                          {"wall_s", number(wall)}};

@@ -13,6 +13,8 @@ struct ProgressState {
     double time = 0;    ///< Simulated [s].
     long step = 0;
     double residual = std::numeric_limits<double>::quiet_NaN();  ///< Relative force residual [1]; NaN: unknown.
+    double left = std::numeric_limits<double>::quiet_NaN();      ///< What the step has not found [1]; NaN: not asked.
+    double error = std::numeric_limits<double>::quiet_NaN();     ///< Estimated, of the step in time [m]; NaN: unknown.
     int frames = 0;                                              ///< Frames written so far.
 };
 

@@ -90,6 +90,23 @@ void add_state(Json& json, const RunSummary& summary)
     json["panels"] = panels_json(summary);
 }
 
+// Steps to rest and those of explicit schemes are not to be solved: there is nothing to tell of them.
+Json accuracy_json(const RunSummary& summary)
+{
+    const MotionAccuracy& a = summary.accuracy;
+    const auto of = [](int steps, double value) { return steps > 0 ? number(value) : Json(); };
+    return {{"aim", a.steps > 0 ? "motion" : "none"},
+            {"tolerance", of(a.steps, summary.step_tolerance)},
+            {"steps", a.steps},
+            {"unsolved", a.unsolved},
+            {"largest_left", of(a.steps, a.largest_left)},
+            {"largest_left_s", of(a.steps, a.left_time)},
+            {"mean_left", of(a.steps, a.sum_left / a.steps)},
+            {"largest_time_error_m", of(a.estimates, a.largest_error)},
+            {"largest_time_error_s", of(a.estimates, a.error_time)},
+            {"mean_time_error_m", of(a.estimates, a.sum_error / a.estimates)}};
+}
+
 }  // namespace
 
 std::optional<RunStatus> read_status(const std::string& path)
@@ -122,6 +139,7 @@ std::string summary_json(const RunSummary& summary)
     json["stability"] = {{"asked_step_s", number(summary.stability.asked)},
                          {"limit_s", number(summary.stability.limit)},
                          {"taken_step_s", number(summary.stability.taken)}};
+    json["accuracy"] = accuracy_json(summary);
     json["coarse_start"] = coarse_json(summary);
     json["phases"] = phases_json(summary);
     json["kernels"] = kernels_json(summary);

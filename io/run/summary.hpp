@@ -59,6 +59,19 @@ struct StabilityUse {
     double taken = unknown;  ///< The shortest step of the run [s].
 };
 
+/// How well the steps of a timed motion were solved, and what their lengths cost.
+struct MotionAccuracy {
+    int steps = 0;             ///< That were to be solved.
+    int unsolved = 0;          ///< Of them that left more than solver.step_tolerance.
+    double largest_left = 0;   ///< Acceleration that a step has not found, over gravity [1].
+    double left_time = 0;      ///< When that was [s].
+    double sum_left = 0;       ///< Over all of these steps.
+    int estimates = 0;         ///< Steps whose error in time the integrator has estimated.
+    double largest_error = 0;  ///< Of one of them [m].
+    double error_time = 0;     ///< When that was [s].
+    double sum_error = 0;      ///< Over all of them [m].
+};
+
 /// The contents of summary.json. An unknown number is NaN, or negative if it is a count, and is written as null.
 struct RunSummary {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -77,6 +90,8 @@ struct RunSummary {
     std::vector<std::string> warnings;
     std::int64_t peak_memory_bytes = -1;
     StabilityUse stability;
+    MotionAccuracy accuracy;
+    double step_tolerance = unknown;      ///< solver.step_tolerance [1].
     std::vector<CoarseUse> coarse_start;  ///< Coarsest mesh first; empty: no coarser mesh was used.
     double residual = unknown;            ///< Relative force residual at the end.
     struct Energy {

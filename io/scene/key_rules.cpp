@@ -117,6 +117,8 @@ constexpr KeyRule rules[] = {
     {"pins.motion", "axis point", [](const Element& e) { return e.motion().turns != 0; }, "`turns`", ""},
 
     {"solver", "tolerance load_steps max_time", to_rest, "solver.until = \"equilibrium\"", "solver.until"},
+    {"solver", "step_tolerance", [](const Element& e) { return !scheme(e).is_explicit && !to_rest(e); },
+     "an implicit solver.integrator and solver.until = SECONDS", "solver.integrator solver.until"},
     {"solver", "progressive", [](const Element& e) { return !e.scene.solver.progressive || to_rest(e); },
      "solver.until = \"equilibrium\"", "solver.until"},
     {"solver", "sleep", [](const Element& e) { return !e.scene.solver.sleep || to_rest(e); },

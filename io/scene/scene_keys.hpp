@@ -145,6 +145,8 @@
     KEY(bool, adaptive, false, "1", 0, 1,                                                                             \
         "steps, of at most solver.step, follow the integrator's estimate of its error")                               \
     KEY(double, step_error, 1e-4, "m", 1e-12, 1, "error of one step that adaptive steps allow")                       \
+    KEY(double, step_tolerance, 1e-2, "1", 1e-6, 1,                                                                   \
+        "motion until a time: acceleration, over gravity, that implicit steps may leave to find")                     \
     KEY(double, tolerance, 1e-3, "1", 1e-9, 1, "equilibrium: net force over gravity force on free vertices")          \
     KEY(double, energy_tolerance, 1e-4, "1", 0, 1,                                                                    \
         "sewing: relative change of elastic energy between steps at which it may stop")                               \
@@ -160,7 +162,8 @@
     CHOICE(preconditioner, PreconditionerChoice, automatic,                                                           \
            "preconditioner of the conjugate gradients; auto: multigrid where levels exist")                           \
     CHOICE(precision, PrecisionChoice, automatic,                                                                     \
-           "of the linear solves; automatic: float up to 500 000 vertices. State and forces are always double")       \
+           "of the linear solves; automatic: float, but double above 500 000 vertices and for stiff cloth on fine "   \
+           "meshes in long steps. State and forces are always double")                                                \
     KEY(int, threads, 0, "1", 0, 1024, "worker threads; 0: all cores")                                                \
     VEC3(gravity, 0, 0, -9.81, "m/s^2", "acceleration")                                                               \
     KEY(double, frame_rate, 30, "1/s", 0.01, 10000, "frames written per simulated second")                            \

@@ -6,22 +6,27 @@
 typedef struct {
     GLOBAL real* RESTRICT pos;
     GLOBAL real* RESTRICT vel;
-    GLOBAL real* RESTRICT way;   // of the step before; then minus the position that the step starts from
-    GLOBAL real* RESTRICT gain;  // likewise
+    GLOBAL real* RESTRICT way;         // of the step before; then minus the position that the step starts from
+    GLOBAL real* RESTRICT gain;        // likewise
+    GLOBAL real* RESTRICT older_way;   // of the step before that
+    GLOBAL real* RESTRICT older_gain;  // likewise
     GLOBAL real* RESTRICT origin;
     GLOBAL real* RESTRICT target;
     GLOBAL real* RESTRICT guess;
-    real dt, w, c, h;  // length of the step, and of it over the one before's; weight of the way; span of the solve
+    real dt, w, h;     // length of the step, and of it over the one before's; span of the solve
+    real last, older;  // weights of the ways and gains
     real parabola;     // w^2 where the guess is to go through both last positions with the last velocity, or 0
     int doubled;       // 1: a step of the midpoint rule, which goes as far again as was solved for
 } bdf2_args;
 
 KERNEL_FN void bdf2_start(int i, const bdf2_args* a)
 {
-    a->origin[i] = a->pos[i] + a->c * a->way[i];
-    a->target[i] = a->origin[i] + a->h * (a->vel[i] + a->c * a->gain[i]);
+    a->origin[i] = a->pos[i] + a->last * a->way[i] + a->older * a->older_way[i];
+    a->target[i] = a->origin[i] + a->h * (a->vel[i] + a->last * a->gain[i] + a->older * a->older_gain[i]);
     a->guess[i] = a->pos[i] + a->dt * a->vel[i] +
                   (a->parabola > REAL(0) ? a->parabola * (a->dt / a->w * a->vel[i] - a->way[i]) : REAL(0));
+    a->older_way[i] = a->way[i];
+    a->older_gain[i] = a->gain[i];
     a->way[i] = -a->pos[i];
     a->gain[i] = -a->vel[i];
 }

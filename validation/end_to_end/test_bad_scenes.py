@@ -18,7 +18,7 @@ SHORT = ["--quiet", "--threads", "1", "--set", "output.picture=false", "--set", 
 ADDRESS_SPACE = 4 << 30   # a fault that is noticed too late must not take the machine's memory
 
 SHEET = "[[sheet]]\nresolution = 3\n"
-MESH_BODY = SHEET + '[[body]]\nname = "solid"\nshape = "mesh"\nmesh = "body.obj"\n'
+MESH_BODY = SHEET + '[[body]]\nname = "solid"\nshape = "mesh"\nmesh = "body.obj"\ncenter = [0, 0, -1]\n'
 GARMENT = '[garment]\npattern = "pattern.json"\nresolution = 0.05\n'
 
 SQUARE = [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]

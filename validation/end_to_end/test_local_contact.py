@@ -90,6 +90,7 @@ class LocalContact(Scratch):
         self.assertAlmostEqual(heights[1], heights[0], delta=2e-6)
         self.assertAlmostEqual(heights[2], heights[0], delta=2e-5)
 
+    # Nothing slows them down, so that what steps leave unsolved sets them sliding: they are solved well.
     def test_aligned_cards_without_friction_stay_above_each_other(self):
         cards = []
         for k in (1, 2, 3):
@@ -98,7 +99,7 @@ class LocalContact(Scratch):
         x, _ = self.drape("cards", cards + FLOOR + [
             "friction = 0", "[fabric.card]", "areal_density = 0.3", "thickness = 0.0003", "stretch_weft = 1e5",
             "stretch_warp = 1e5", "shear = 4e4", "bending_weft = 1e-3", "bending_warp = 1e-3", "friction = 0",
-            "damping = 0.5", "[solver]", "until = 3"])
+            "damping = 0.5", "[solver]", "until = 3", "step_tolerance = 1e-3"])
         for card in np.split(x, 3):
             aside = np.linalg.norm(card[:, :2].mean(axis=0))
             way = card[-1, :2] - card[0, :2]

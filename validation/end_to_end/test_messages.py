@@ -103,6 +103,31 @@ until = 0.1
 """
 
 
+# A sheet that a solid with sharp corners pierces: its tip is 0.1 m above the sheet.
+PIERCED = """
+[[sheet]]
+width = 0.5
+height = 0.5
+resolution = 33
+center = [0, 0, 0.1]
+[[body]]
+name = "solid"
+shape = "mesh"
+mesh = "solid.obj"
+[solver]
+until = 0.5
+"""
+TETRAHEDRON = """v -0.1 -0.1 0
+v 0.1 -0.1 0
+v 0 0.1 0
+v 0 0 0.2
+f 1 3 2
+f 1 2 4
+f 2 3 4
+f 3 1 4
+"""
+
+
 def grid_with_sliver():
     """A square of 0.2 m with 4 x 4 cells, one of whose triangles is 0.2 mm high."""
     points = [[0.05 * column, 0.05 * row] for row in range(5) for column in range(5)]
@@ -168,6 +193,12 @@ class Messages(unittest.TestCase):
                          r"the bodies `(finger|thumb)` and `(?!\1)(finger|thumb)` close on the cloth between them")
         self.assertRegex(errors, r"where: vertex \d+ of `sheet\[0\]`")
         self.assertIn("contact.gap", errors)
+
+    def test_cloth_that_cannot_be_freed_from_a_body_that_pierces_it_is_told(self):
+        code, errors, summary = self.drape(PIERCED, files={"solid.obj": TETRAHEDRON})
+        self.assertEqual((code, summary["status"]), (3, "diverged"))
+        self.assertRegex(errors, r"likely cause: cloth is inside a body or crosses itself or a body, in \d+ vertices")
+        self.assertIn("start the cloth outside the bodies", errors)
 
     def test_cloth_that_is_held_everywhere_is_at_rest(self):
         code, errors, summary = self.drape(ALL_HELD)

@@ -65,7 +65,7 @@ class Pins(unittest.TestCase):
         self.assertLess(moved.max(), 0.1)
 
     def test_the_panel_that_moves_is_the_named_one(self):
-        motion = '[[pins.motion]]\npanel = "sheet[0]"\nvertices = "12"\nvelocity = [0, 0, 1]\n'
+        motion = '[[pins.motion]]\npanel = "sheet[0]"\nvertices = "12"\nvelocity = [0, 0, -1]\n'
         moved, panel = self.drape(SHEETS + motion)
         self.assertAlmostEqual(moved[12], 0.3, places=4)
         self.assertGreater(moved[panel == 1].min(), 0.15)

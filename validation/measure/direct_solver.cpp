@@ -13,7 +13,7 @@ class DirectSolver final : public LinearSolver {
 public:
     explicit DirectSolver(bool plane) : plane_(plane) {}
 
-    void assemble(const State& state, double inertia, bool) override
+    void assemble(const State& state, double inertia, MatrixUse) override
     {
         const int n = state.size.vertex_count;
         stride_ = state.size.vertex_stride;
@@ -25,10 +25,10 @@ public:
         factorise(matrix_);
     }
 
-    LinearResult solve(const double* b, double, double* x, int) override
+    LinearResult solve(const double* b, const LinearGoal&, double* x) override
     {
         scatter(factor_.solve(gathered(b)), x);
-        return {1, 0, false};
+        return {1, 0, 0, false};
     }
 
     void multiply(const double* x, double* y) override { scatter(matrix_ * gathered(x), y); }

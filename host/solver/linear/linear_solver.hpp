@@ -43,14 +43,31 @@ struct LinearOptions {
     int max_iterations = 600;
 };
 
+/// When a solve may end. The residual's norm is ruled by stiff directions: once these are solved it is small, whatever
+/// is left of the soft ones. The error in the energy norm, |x - A^-1 b|_A, counts both by what they are worth.
+struct LinearGoal {
+    double residual = 0.05;  ///< |b - A x| / |b| [1]; where energy_part is above 0 it does not count.
+    double energy_part = 0;  ///< Error in the energy norm over that norm of the solution [1]; 0: not asked for.
+    double energy_left = 0;  ///< Or the square of that error [J], whichever is met first.
+    int at_most = std::numeric_limits<int>::max();  ///< Iterations, at most those of the options.
+};
+
 struct LinearResult {
     int iterations = 0;
     double relative_residual = 1;     ///< |b - A x| / |b|.
+    double energy_left = 0;           ///< Where energy_part was asked for: about the square of the error left [J].
     bool negative_curvature = false;  ///< A direction p with p.Ap <= 0 was met; x is what stood before it.
 };
 
 /// The parts of one iteration, to be measured one by one.
 enum class LinearOperation { product, precondition, dot, update };
+
+/// What an assembled matrix is for.
+enum class MatrixUse {
+    products,  ///< No preconditioner is made.
+    solves,    ///< The preconditioner is made of this matrix alone.
+    likewise,  ///< Its coarse matrices may be those of the matrix before, which differs little, as long as they serve.
+};
 
 /// Preconditioned conjugate gradients on 3x3 blocks (Baraff and Witkin 1998).
 class LinearSolver {
@@ -58,18 +75,12 @@ public:
     virtual ~LinearSolver() = default;
     /// Gathers the stiffness slots of the state; adds inertia * mass to the diagonal. @param inertia 1/dt^2 [1/s^2]
     /// A plate's hinge slopes and couplings stay in the state, which must outlive the products that follow.
-    /// @param solves  false: only products are wanted, so that the preconditioner need not be made
-    virtual void assemble(const State& state, double inertia, bool solves = true) = 0;
+    virtual void assemble(const State& state, double inertia, MatrixUse use = MatrixUse::solves) = 0;
     /// y = A x with the assembled matrix, in its precision. @param x, y  three planes of state.size.vertex_stride
     virtual void multiply(const double* x, double* y) = 0;
-    /// Solves A x = b to |b - A x| <= tolerance |b|.
-    /// @param b  three planes of state.size.vertex_stride; pinned vertices must hold 0
-    /// @param x  like b; overwritten   @param at_most  iterations, at most those of the options
-    virtual LinearResult solve(const double* b, double tolerance, double* x, int at_most) = 0;
-    LinearResult solve(const double* b, double tolerance, double* x)
-    {
-        return solve(b, tolerance, x, std::numeric_limits<int>::max());
-    }
+    /// Solves A x = b.
+    /// @param b  three planes of state.size.vertex_stride; pinned vertices must hold 0   @param x  like b; overwritten
+    virtual LinearResult solve(const double* b, const LinearGoal& goal, double* x) = 0;
     virtual std::size_t bytes() const = 0;  ///< Memory held.
     /// Runs one operation on the vectors that the last solve left behind.
     virtual void run(LinearOperation operation) = 0;

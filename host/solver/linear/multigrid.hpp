@@ -24,6 +24,8 @@ public:
     /// @param rows      of the finest level that take part; the others are left alone as if they were pinned
     /// @param is_awake  per particle: 1 if it does; only read where not all do
     void build(const BlockMatrix& finest, const Items& rows, const std::vector<char>& is_awake);
+    /// Takes another finest matrix, which differs little, with the coarse ones as they are.
+    void refresh(const BlockMatrix& finest) { levels_[0].jacobi.build(levels_[0].rows, finest); }
     /// z = one V-cycle applied to r.
     void apply(const BlockMatrix& finest, const LinearVector& r, LinearVector& z);
     std::size_t bytes() const;

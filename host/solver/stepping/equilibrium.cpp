@@ -9,14 +9,10 @@
 namespace selvage {
 namespace {
 
-// When a step of a timed motion is solved. Nothing on record chose these numbers; `bench work-precision` shows the
-// errors that they leave.
+// When a step of a timed motion is solved.
 struct MotionTuning {
-    static constexpr double residual = 1e-2;  // gradient norm over the force scale [1]
-    static constexpr double velocity = 3e-2;  // of the fastest vertex in an iteration [m/s]
-    static constexpr double energy = 1e-2;    // what an iteration promises over the kinetic energy [1]
-    static constexpr double linear = 0.2;     // relative residual of the linear solves [1]
-    static constexpr double move = 0.12;      // largest move of an iteration that may be left, in edge lengths
+    // Gradient norm over the force scale that is as good as a step with `step_tolerance` left, over that.
+    static constexpr double residual = 0.3;
 };
 
 constexpr RestTuning tuning;
@@ -97,7 +93,10 @@ StepEvent event_of(const StepControl& control, const System& system, double resi
             residual,
             control.stable_step(),
             control.shortest(),
-            control.integrator().info().name};
+            control.integrator().info().name,
+            -1,
+            true,
+            control.integrator().info().has_error_estimate() ? control.integrator().error_estimate() : -1};
 }
 
 void wake_all(System& system, DrapeProgress& progress)
@@ -124,6 +123,7 @@ public:
           after_step_(after_step), first_mode_(first_mode(integrator.info(), options))
     {
         newton_.stop = &options.stop;
+        newton_.towards_rest = true;
         newton_.tolerance = tuning.step_tolerance * options.tolerance;
         enter_mode();
     }
@@ -268,12 +268,9 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
     StepControl control(phase, chosen(options, phase, own), with_boundary(options.step), progress.steps);
     NewtonOptions newton;
     newton.max_iterations = options.newton_iterations;
-    newton.tolerance = MotionTuning::residual;
-    newton.velocity_tolerance = MotionTuning::velocity;
-    newton.energy_tolerance = MotionTuning::energy;
-    newton.linear_tolerance = MotionTuning::linear;
+    newton.tolerance = MotionTuning::residual * options.step_tolerance;
+    newton.acceleration_left = options.step_tolerance * phase.system().gravity_scale();
     newton.stop = &options.stop;
-    newton.move_tolerance = MotionTuning::move * phase.edge_length();
     System& system = phase.system();
     while (system.clock().time < until - 1e-9) {
         const double time = system.clock().time;
@@ -283,7 +280,12 @@ PhaseEnd drape_until(Phase& phase, const EquilibriumOptions& options, double unt
         if (control.report().broken_off) return PhaseEnd::stopped;
         progress.steps = control.memory();
         system.refresh_pairs();
-        if (!after_step(event_of(control, system, system.residual()))) return PhaseEnd::stopped;
+        StepEvent event = event_of(control, system, system.residual());
+        if (!control.integrator().info().is_explicit) {
+            event.left = control.report().acceleration_left / system.gravity_scale();
+            event.solved = control.report().converged;
+        }
+        if (!after_step(event)) return PhaseEnd::stopped;
     }
     return PhaseEnd::reached;
 }

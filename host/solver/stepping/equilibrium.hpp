@@ -14,9 +14,10 @@ struct EquilibriumOptions {
     /// Called before a static attempt, and with true where one has been broken off and undone: a resumed run repeats
     /// it.
     std::function<void(bool undone)> attempt = [](bool) {};
-    bool sleeps = true;          ///< What hardly moves is left alone for some steps; see sleep.hpp.
-    bool only_balances = false;  ///< Ends where the forces first nearly balance: a finer cloth goes on from there.
-    int load_steps = 1;          ///< The weight grows to its whole in so many steps, with rest after each.
+    double step_tolerance = 1e-2;  ///< Acceleration that a step of a timed motion may leave to find, over gravity [1].
+    bool sleeps = true;            ///< What hardly moves is left alone for some steps; see sleep.hpp.
+    bool only_balances = false;    ///< Ends where the forces first nearly balance: a finer cloth goes on from there.
+    int load_steps = 1;            ///< The weight grows to its whole in so many steps, with rest after each.
 };
 
 /// What the way to rest is steered by. A number that names no source is as it was first written: no measurement of it

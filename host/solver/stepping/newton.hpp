@@ -10,13 +10,15 @@ namespace selvage {
 
 struct NewtonOptions {
     int max_iterations = 12;
-    double tolerance = 1e-2;         ///< Norm of the objective's gradient over the system's force scale [1].
-    double velocity_tolerance = 0;   ///< A step has also converged when an iteration wants to move no vertex faster
-                                     ///< than this [m/s].
-    double energy_tolerance = 0;     ///< A step has also converged when an iteration promises to lower the objective
-                                     ///< by less than this part of the kinetic energy [1].
-    double move_tolerance = 1e300;   ///< But not while an iteration wants to move a vertex further than this [m].
-    double linear_tolerance = 0.05;  ///< Relative residual of the linear solves [1].
+    double tolerance = 1e-2;        ///< Norm of the objective's gradient over the system's force scale [1].
+    double velocity_tolerance = 0;  ///< A step has also converged when an iteration wants to move no vertex faster
+                                    ///< than this [m/s].
+    /// Above 0: the step is to be solved. It has converged when the acceleration that is left to find is below this, as
+    /// root mean square over the free mass or for the fastest vertex [m/s^2]. Linear solves then end by their error in
+    /// the energy norm, ways bend where stretch asks for it, and the expected place is where the step starts from.
+    double acceleration_left = 0;
+    double linear_tolerance = 0.05;  ///< Relative residual of the linear solves [1], where the step need not be solved.
+    bool towards_rest = false;       ///< Motion is to die down: integrators leave out what takes their damping off.
     MoveLimits move_limits;          ///< Of one iteration.
     bool full_stiffness = false;     ///< Exact second derivatives instead of the projected ones.
     const std::function<bool()>* stop = nullptr;  ///< Asked before each iteration: true breaks off.
@@ -29,9 +31,11 @@ struct NewtonReport {
     bool almost_converged = false;  ///< Stuck where hardly anything was left to gain.
     int iterations = 0;
     int linear_iterations = 0;
-    int negative_curvature = 0;  ///< Iterations whose linear solve met negative curvature.
-    int indefinite = 0;          ///< Iterations whose linear solve met it before its first step.
-    double residual = 0;         ///< Gradient norm over the force scale, at the end [1].
+    int negative_curvature = 0;    ///< Iterations whose linear solve met negative curvature.
+    int indefinite = 0;            ///< Iterations whose linear solve met it before its first step.
+    double residual = 0;           ///< Gradient norm over the force scale, at the end [1].
+    double acceleration_left = 0;  ///< About what the last direction had still to find, or a bound of it [m/s^2].
+    int bent = 0;                  ///< Iterations whose way was bent, each by one more linear solve.
 };
 
 /// Minimises the objective of an implicit step, or the static energy, by Newton's method with a line search:
@@ -57,7 +61,7 @@ public:
 
     /// Fields of a minimisation, planes like pos. They are kept to be filled again; nothing else is.
     struct Vectors {
-        std::vector<real> start, base, downhill, direction, unlimited;
+        std::vector<real> start, base, downhill, direction, unlimited, straight, curve;
     };
 
 private:
@@ -68,7 +72,8 @@ private:
 
 /// One step of implicit Euler, with friction settled at its end. @param dt  [s], > 0
 /// @param free_flight  receives where the vertices would be without forces, planes like pos [m]; null: nobody asks
+/// @param expected     see Newton::minimise
 NewtonReport implicit_euler_step(Newton& newton, double dt, const NewtonOptions& options,
-                                 std::vector<real>* free_flight = nullptr);
+                                 std::vector<real>* free_flight = nullptr, const std::vector<real>* expected = nullptr);
 
 }  // namespace selvage

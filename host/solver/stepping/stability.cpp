@@ -83,7 +83,7 @@ double largest_eigenvalue(Phase& phase)
 double highest_frequency(Phase& phase)
 {
     phase.system().evaluate_stiffness(true, 0);
-    phase.linear().assemble(phase.state(), 0, false);
+    phase.linear().assemble(phase.state(), 0, MatrixUse::products);
     return std::sqrt(std::max(0.0, largest_eigenvalue(phase)));
 }
 

@@ -46,9 +46,10 @@ void StepControl::return_to(const SolverSnapshot& place, double time)
 
 // The length of the next step when `left` seconds are to be covered; an explicit scheme divides them evenly.
 // @param begins  at a state that has been accepted: only there a run may end because of the limit
-double StepControl::next_step(double left, bool begins)
+// @param even    steps of about one length are to cover it: a short one after a long one upsets schemes that look back
+double StepControl::next_step(double left, bool begins, bool even)
 {
-    if (!fills()) return std::min(memory_.dt, left);
+    if (!fills()) return even ? left / std::ceil(left / std::min(memory_.dt, left) - 1e-9) : std::min(memory_.dt, left);
     limit_ = integrator_.stable_step();
     if (begins && options_.unstable == UnstableStep::refuse && options_.longest > limit_)
         throw UnstableStepError(options_.longest, limit_);
@@ -217,7 +218,7 @@ double StepControl::advance(double room, const NewtonOptions& options, bool accu
 {
     Cover cover = start(room);
     for (;;) {
-        const double dt = next_step(cover.length - cover.done, cover.done == 0);
+        const double dt = next_step(cover.length - cover.done, cover.done == 0, accurate);
         if (cover.done == 0) cover.first = dt;
         if (adapts() && cover.done > 0) keep(system_, &integrator_, last_);
         switch (try_step(cover, dt, options, accurate)) {

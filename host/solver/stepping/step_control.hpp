@@ -22,6 +22,9 @@ struct StepEvent {
     double stable_step = std::numeric_limits<double>::infinity();  ///< Limit of an explicit scheme [s].
     double shortest = 0;               ///< Shortest of the steps that dt was made of [s]; 0: one step.
     std::string_view integrator = {};  ///< That took the step; empty for a relaxation.
+    double left = -1;    ///< Acceleration that a step of a timed motion has not found, over gravity [1]; -1: not asked.
+    bool solved = true;  ///< False: it has been accepted although more is left than was allowed.
+    double error = -1;   ///< Estimate of the step's own error in time [m]; -1: none.
 };
 
 /// Called after every accepted step; false ends the phase (an interrupt, a limit on wall time).
@@ -89,7 +92,7 @@ private:
 
     void return_to(const SolverSnapshot& place, double time);
     Cover start(double room);
-    double next_step(double left, bool begins);
+    double next_step(double left, bool begins, bool even);
     Verdict try_step(const Cover& cover, double dt, const NewtonOptions& options, bool accurate);
     bool solve(double dt, const NewtonOptions& options, bool accurate);
     bool fills() const { return integrator_.info().is_explicit; }

@@ -14,13 +14,17 @@ namespace {
 
 constexpr double gravity_on_earth = 9.81;  // [m/s^2]
 
-// The weight of the free vertices; without gravity that which they would have on earth. Where none is free there is no
-// force either, and any weight will do.
-double weight_of(const State& state, const Params& params)
+double gravity_or_earths(const Params& params)
 {
     const double gravity =
         std::hypot(params.gravity.acceleration_x, params.gravity.acceleration_y, params.gravity.acceleration_z);
-    const double scale = gravity > 0 ? gravity : gravity_on_earth;
+    return gravity > 0 ? gravity : gravity_on_earth;
+}
+
+// The weight of the free vertices, as root of the sum of its squares. Where none is free there is no force either, and
+// any weight will do.
+double weight_of(const State& state, double scale)
+{
     const double square = sum_items(state.size.vertex_count, [&state, scale](int v) {
         return state.inv_mass[v] == 0 ? 0.0 : scale * scale * state.mass[v] * state.mass[v];
     });
@@ -47,8 +51,8 @@ std::vector<const VelocityFilter*> active_velocity_filters(const Params& params)
 System::System(State state, const Params& params, Profile& profile, Surroundings surroundings)
     : state_(std::move(state)), params_(params), profile_(profile), around_(std::move(surroundings)),
       bodies_exert_forces_(around_.bodies && !(params.velocity_rule.gap > 0)), terms_(state_, params_, profile),
-      velocity_filters_(active_velocity_filters(params)), force_scale_(weight_of(state_, params)),
-      static_force_(state_.pos.size())
+      velocity_filters_(active_velocity_filters(params)), gravity_scale_(gravity_or_earths(params)),
+      force_scale_(weight_of(state_, gravity_scale_)), static_force_(state_.pos.size())
 {
     refresh_air();
     if (!around_.cloth || !around_.bodies || around_.bodies->motion_end() == 0) return;

@@ -60,6 +60,8 @@ public:
     }
     /// Writes d2R/dv2 to state.vertex_stiffness [kg/s].
     void evaluate_drag() { terms_.evaluate_drag(); }
+    /// See ActiveTerms.
+    double second_order_stretch(const std::vector<real>& direction) { return terms_.second_order_stretch(direction); }
     bool dissipates() const { return terms_.dissipates(); }
     /// Air that moves, and may so feed the cloth with energy; air that is still only takes it.
     bool wind_blows() const { return params_.wind.normal > 0 || params_.wind.tangential > 0; }
@@ -74,9 +76,10 @@ public:
     /// Norm of the net conservative force on free vertices over that of gravity (of earth's, if there is none) [1].
     /// Those asleep count with what it was when they fell asleep.
     double residual() const { return residual_of(static_force()); }
-    double residual_of(const std::vector<real>& static_force) const;   ///< The same of a force that is known already.
-    double force_scale() const { return force_scale_; }                ///< What forces are measured against [N].
-    double kinetic_energy() const { return terms_.kinetic_energy(); }  ///< [J]
+    double residual_of(const std::vector<real>& static_force) const;  ///< The same of a force that is known already.
+    double force_scale() const { return force_scale_; }               ///< What forces are measured against [N].
+    double gravity_scale() const { return gravity_scale_; }           ///< Gravity, or earth's if there is none [m/s^2].
+    double kinetic_energy() const { return terms_.kinetic_energy(); }                 ///< [J]
     double potential_energy() const { return terms_.potential_energy(); }             ///< See ActiveTerms [J].
     double energy_of(EnergyFamily family) const { return terms_.energy_of(family); }  ///< Of the whole cloth [J].
     Energies energies() const;
@@ -131,7 +134,7 @@ private:
     bool bodies_exert_forces_;
     ActiveTerms terms_;
     std::vector<const VelocityFilter*> velocity_filters_;
-    double force_scale_;
+    double gravity_scale_, force_scale_;
     Clock clock_;
     mutable std::vector<real> static_force_;  ///< The result of the query of that name; nothing else depends on it.
 };

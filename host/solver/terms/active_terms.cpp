@@ -1,7 +1,9 @@
 #include "host/solver/terms/active_terms.hpp"
 
+#include "host/parallel/launch.hpp"
 #include "host/solver/state/vectors.hpp"
 #include "host/solver/terms/traffic.hpp"
+#include "kernels/curve_way.h"
 
 namespace selvage {
 ActiveTerms::ActiveTerms(State& state, const Params& params, Profile& profile)
@@ -60,6 +62,22 @@ void ActiveTerms::evaluate_drag()
 {
     clear_stiffness(state_);
     for (const Term* term : dissipative_) term->add_stiffness(state_, params_, false);
+}
+
+double ActiveTerms::second_order_stretch(const std::vector<real>& direction)
+{
+    const double scale = params_.membrane.scale + params_.curved_membrane.scale;  // at most one of them acts
+    if (scale == 0) return 0;
+    clear_forces(state_);
+    const bool curved = params_.curved_membrane.scale > 0;
+    const double energy = launch_sum<curve_way>(
+        items_of(state_, ItemKind::face),
+        curve_way_args{state_.size, state_.pos.data(), direction.data(), state_.face_vertex.data(),
+                       state_.face_material.data(), state_.face_area.data(), state_.face_weights.data(),
+                       state_.material_stretch.data(), curved ? state_.material_curve.data() : nullptr,
+                       state_.face_force.data(), scale});
+    gather_forces(state_);
+    return energy;
 }
 
 double ActiveTerms::energy()

@@ -29,6 +29,11 @@ public:
     double dissipation() const;  ///< R of all dissipative terms, of what is awake [W].
     bool dissipates() const { return !dissipative_.empty(); }
 
+    /// Writes to state.force the force of the stretch of second order along a direction, planes like pos, on what is
+    /// awake [N]; see kernels/curve_way.h.
+    /// @returns the energy of that stretch alone [J]; 0 where no membrane acts
+    double second_order_stretch(const std::vector<real>& direction);
+
     // Queries. They write nothing to the state but what stages derive from its positions and the elements' slots, both
     // of which every evaluation fills before it reads them.
 

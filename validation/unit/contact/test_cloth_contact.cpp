@@ -127,6 +127,7 @@ Vec3 slide(double slope, double friction, double until)
     EquilibriumOptions limits;
     limits.step.longest = 0.002;
     limits.integrator = scheme.get();
+    limits.step_tolerance = 1e-3;  // what steps leave moves the patch as well: 1e-2 of gravity is 0.2 mm/s here
     limits.newton_iterations = 40;
     DrapeProgress progress;
     drape_until(phase, limits, until, 1.0 / 60, progress, [](const StepEvent&) { return true; });

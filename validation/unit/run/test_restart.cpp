@@ -40,7 +40,14 @@ RunProgress some_progress()
     p.sewing = {0.2, 3, 0.4, 0.5, 0.6, {0.7}};
     p.pressing = {8, {0.9}};
     p.draping = {1.2, 13, 1.4, {1.5, 1, 1.6, 1.7, 1.8}, 16, 0};
-    p.counters = {17, 18, 19, 2.1, {{"drape", 2.2}, {"sew", 2.3}}, {"bdf2", "implicit_euler"}, {0.3, 49, 1.1}};
+    p.counters = {17,
+                  18,
+                  19,
+                  2.1,
+                  {{"drape", 2.2}, {"sew", 2.3}},
+                  {"bdf2", "implicit_euler"},
+                  {50, 1, 0.011, 1.2, 0.3, 51, 0.012, 1.3, 0.4},
+                  {0.3, 49, 1.1}};
     p.frame = {26, true};
     p.stability = {2.7, 2.8, 2.9};
     p.ended = true;

@@ -105,7 +105,7 @@ struct Oscillator {
         for (Vec3& x : sheet.model.cloth.positions) x *= 1.1;
         Phase phase = sheet.phase();
         phase.system().evaluate_stiffness(false, 0);
-        phase.linear().assemble(phase.state(), 0, false);
+        phase.linear().assemble(phase.state(), 0, MatrixUse::products);
         std::vector<real> up(phase.state().pos.size(), 0.0), force(up);
         const int z = 2 * phase.state().size.vertex_stride + 4;
         up[z] = 1;

@@ -152,7 +152,7 @@ TEST_CASE("linear solvers of both precisions and preconditioners agree with a de
             const auto solver = in_double ? make_linear_solver_double(state, options, prolongations)
                                           : make_linear_solver_float(state, options, prolongations);
             solver->assemble(state, 100);
-            const LinearResult result = solver->solve(b.data(), in_double ? 1e-12 : 1e-5, x.data());
+            const LinearResult result = solver->solve(b.data(), {.residual = in_double ? 1e-12 : 1e-5}, x.data());
             CHECK_FALSE(result.negative_curvature);
             for (int i = 0; i < 243; ++i) CHECK(x[dofs[i]] == Approx(expected[i]).margin(in_double ? 1e-9 : 1e-3));
         }

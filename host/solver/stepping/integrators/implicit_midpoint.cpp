@@ -4,6 +4,7 @@
 #include "host/parallel/launch.hpp"
 #include "host/solver/state/vectors.hpp"
 #include "host/solver/stepping/integrators/list.hpp"
+#include "host/solver/stepping/integrators/rigid_flight.hpp"
 #include "host/solver/stepping/phase.hpp"
 #include "kernels/stages/integrator_steps.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 class ImplicitMidpoint final : public Integrator {
 public:
-    ImplicitMidpoint(Phase& phase, const IntegratorInfo& info) : phase_(phase), info_(info)
+    ImplicitMidpoint(Phase& phase, const IntegratorInfo& info) : phase_(phase), info_(info), flight_(phase.state())
     {
         for (std::vector<real>* v : {&acceleration_, &before_, &start_, &start_vel_, &target_, &expected_})
             v->assign(phase.state().pos.size(), 0);
@@ -32,9 +33,13 @@ public:
         before_ = acceleration_;
         add(target_, s.pos, 0.5 * dt, s.vel);
         add(expected_, target_, 0.25 * dt * dt, acceleration_);
-        const bool first = last_dt_[0] == 0;
+        const bool solves = options.acceleration_left > 0, first = last_dt_[0] == 0;
+        if (solves) {
+            if (first) fill_gravity(s, phase_.params(), before_);
+            flight_.predict(s, 0.5 * dt, 0.25 * dt * dt, before_, expected_);
+        }
         const NewtonReport report =
-            phase_.newton().minimise(0.5 * dt, start_, target_, options, first ? nullptr : &expected_);
+            phase_.newton().minimise(0.5 * dt, start_, target_, options, first && !solves ? nullptr : &expected_);
         launch<midpoint_finish>(int(s.pos.size()), midpoint_args{s.pos.data(), s.vel.data(), acceleration_.data(),
                                                                  start_.data(), start_vel_.data(), dt});
         phase_.system().settle();
@@ -48,6 +53,7 @@ public:
 private:
     Phase& phase_;
     const IntegratorInfo& info_;
+    RigidFlight flight_;
     std::vector<real> acceleration_, before_, last_dt_{0}, start_, start_vel_, target_, expected_;
     double error_ = 0;
 };
