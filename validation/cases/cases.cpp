@@ -18,6 +18,7 @@ const std::vector<CaseGroup>& case_groups()
         {"catenary", "a strip hanging between two supports against the catenary", check_catenary},
         {"frequencies", "small vibrations of chains, membranes and strips", check_frequencies},
         {"buckling", "the load at which a clamped strip on edge turns over", check_buckling},
+        {"motion", "rigid motions at every stiffness: pendulums, a card, free fall and spin", check_motion},
         {"integrators", "motion in time: frequencies, damping, orders and conserved quantities", check_integrators},
         {"friction", "Coulomb friction on an incline and around a cylinder", check_friction},
         {"wind", "air on cloth: falling sheets, plates, taut sheets and curtains in wind", check_wind},

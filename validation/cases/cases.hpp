@@ -33,6 +33,7 @@ void check_cantilever(CaseReport& report);
 void check_catenary(CaseReport& report);
 void check_frequencies(CaseReport& report);
 void check_buckling(CaseReport& report);
+void check_motion(CaseReport& report);
 void check_integrators(CaseReport& report);
 void check_friction(CaseReport& report);
 void check_wind(CaseReport& report);
