@@ -50,6 +50,8 @@ KERNEL_FN pair_weights closest_point_plane(vec3 x, vec3 f0, vec3 f1, vec3 f2)
     vec3 e1 = f1 - f0, e2 = f2 - f0, d = x - f0;
     real a = dot(e1, e1), b = dot(e1, e2), c = dot(e2, e2), d1 = dot(e1, d), d2 = dot(e2, d);
     real determinant = a * c - b * b;
+    // A face without area has no plane.
+    if (!(determinant > REAL(1e-12) * a * c)) return closest_point_face(x, f0, f1, f2);
     return face_weights((c * d1 - b * d2) / determinant, (a * d2 - b * d1) / determinant);
 }
 

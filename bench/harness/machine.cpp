@@ -34,4 +34,10 @@ nlohmann::ordered_json bench_context(int threads)
     return context;
 }
 
+nlohmann::ordered_json timed_run(const std::string& name, double wall, double processor)
+{
+    return {{"name", name},      {"run_name", name},      {"run_type", "iteration"}, {"iterations", 1},
+            {"real_time", wall}, {"cpu_time", processor}, {"time_unit", "s"}};
+}
+
 }  // namespace selvage

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include <nlohmann/json_fwd.hpp>
 
 namespace selvage {
@@ -10,5 +12,9 @@ void describe_machine(nlohmann::ordered_json& context);
 /// Returns the `context` object of Google Benchmark's schema for a suite that does not use its loop: `date`,
 /// `num_cpus`, `threads` and everything that describe_machine adds.
 nlohmann::ordered_json bench_context(int threads);
+
+/// Returns an entry of its `benchmarks`, to which a suite adds what it counts: one iteration.
+/// @param wall, processor  [s]
+nlohmann::ordered_json timed_run(const std::string& name, double wall, double processor);
 
 }  // namespace selvage

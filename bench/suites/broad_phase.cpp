@@ -285,14 +285,7 @@ Json json_report(const std::vector<BroadPhaseResult>& results)
     report["context"]["gap"] = gap;
     report["benchmarks"] = Json::array();
     for (const BroadPhaseResult& r : results) {
-        Json run;
-        run["name"] = fmt::format("{}/side:{}/{}", r.shape, r.side, r.method);
-        run["run_name"] = run["name"];
-        run["run_type"] = "iteration";
-        run["iterations"] = 1;
-        run["real_time"] = r.find.wall_s;
-        run["cpu_time"] = r.find.cpu_s;
-        run["time_unit"] = "s";
+        Json run = timed_run(fmt::format("{}/side:{}/{}", r.shape, r.side, r.method), r.find.wall_s, r.find.cpu_s);
         run["build_time"] = r.build.wall_s;
         run["step_time"] = r.step.cpu_s;
         run["time_of_embree"] = r.find.cpu_s / refit_of(results, r).find.cpu_s;

@@ -140,14 +140,7 @@ Json json_report(const std::vector<ContactCost>& costs)
     report["context"] = bench_context(1);
     report["benchmarks"] = Json::array();
     for (const ContactCost& c : costs) {
-        Json run;
-        run["name"] = c.scene + "/" + c.program;
-        run["run_name"] = run["name"];
-        run["run_type"] = "iteration";
-        run["iterations"] = 1;
-        run["real_time"] = c.contact_s;
-        run["cpu_time"] = c.contact_s;
-        run["time_unit"] = "s";
+        Json run = timed_run(c.scene + "/" + c.program, c.contact_s, c.contact_s);
         run["search_time"] = c.search_s;
         run["newton_iterations"] = c.newton_iterations;
         run["whole_searches"] = c.whole;

@@ -211,14 +211,8 @@ Json json_report(const std::vector<ScalingPoint>& points)
         }
     report["benchmarks"] = Json::array();
     for (const ScalingPoint& p : points) {
-        Json run;
-        run["name"] = fmt::format("{}/vertices:{:.0f}/threads:{}", p.scene, p.vertices(), p.threads);
-        run["run_name"] = run["name"];
-        run["run_type"] = "iteration";
-        run["iterations"] = 1;
-        run["real_time"] = p.run.wall_s;
-        run["cpu_time"] = p.run.cpu_s;
-        run["time_unit"] = "s";
+        Json run = timed_run(fmt::format("{}/vertices:{:.0f}/threads:{}", p.scene, p.vertices(), p.threads),
+                             p.run.wall_s, p.run.cpu_s);
         run["threads"] = p.threads;
         run["until"] = p.until;
         run["vertices"] = p.vertices();

@@ -149,14 +149,7 @@ Json json_report(const std::vector<SkipResult>& results)
     report["benchmarks"] = Json::array();
     for (const SkipResult& r : results) {
         const SkipResult& absent = absent_of(results, r);
-        Json run;
-        run["name"] = r.of.feature + "/" + r.of.state;
-        run["run_name"] = run["name"];
-        run["run_type"] = "iteration";
-        run["iterations"] = 1;
-        run["real_time"] = r.wall_s;
-        run["cpu_time"] = r.cpu_s;
-        run["time_unit"] = "s";
+        Json run = timed_run(r.of.feature + "/" + r.of.state, r.wall_s, r.cpu_s);
         run["peak_memory_bytes"] = r.peak_memory_bytes;
         run["time_of_absent"] = r.cpu_s / absent.cpu_s;
         run["memory_of_absent"] = r.peak_memory_bytes / absent.peak_memory_bytes;

@@ -110,15 +110,10 @@ Json json_report(const Survey& survey)
     Json report;
     report["context"] = bench_context(tbb::this_task_arena::max_concurrency());
     for (const StabilityResult& r : survey.cells) {
-        Json run;
-        run["name"] = fmt::format("{}/step:{:g}/stiffness:{:g}/resolution:{}/damping:{:g}/{}{}", r.cell.integrator,
-                                  r.cell.step, r.cell.stiffness, r.cell.resolution, r.cell.damping,
-                                  name_of(r.cell.start), r.cell.self_contact ? "/self" : "");
-        run["run_name"] = run["name"];
-        run["run_type"] = "iteration";
-        run["iterations"] = 1;
-        run["real_time"] = run["cpu_time"] = r.seconds;
-        run["time_unit"] = "s";
+        Json run = timed_run(fmt::format("{}/step:{:g}/stiffness:{:g}/resolution:{}/damping:{:g}/{}{}",
+                                         r.cell.integrator, r.cell.step, r.cell.stiffness, r.cell.resolution,
+                                         r.cell.damping, name_of(r.cell.start), r.cell.self_contact ? "/self" : ""),
+                             r.seconds, r.seconds);
         run["verdict"] = name_of(r.verdict);
         run["energy_ratio"] = std::isfinite(r.energy_ratio) ? Json(r.energy_ratio) : Json();
         if (r.cell.self_contact) {

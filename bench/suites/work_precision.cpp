@@ -73,16 +73,10 @@ std::string csv_text(const std::vector<PrecisionPoint>& points)
 
 Json json_point(const PrecisionPoint& p)
 {
-    Json run;
-    run["name"] =
+    Json run = timed_run(
         fmt::format("{}/{}/step:{:.3g}/tolerance:{:g}/iterations:{}/{}", p.scene, p.integrator, p.setting.step,
-                    p.setting.tolerance, p.setting.iterations, p.setting.float_solves ? "float" : "double");
-    run["run_name"] = run["name"];
-    run["run_type"] = "iteration";
-    run["iterations"] = 1;
-    run["real_time"] = p.result.wall;
-    run["cpu_time"] = p.result.cpu;
-    run["time_unit"] = "s";
+                    p.setting.tolerance, p.setting.iterations, p.setting.float_solves ? "float" : "double"),
+        p.result.wall, p.result.cpu);
     run["position_error"] = std::isfinite(p.error) ? Json(p.error) : Json();
     run["steps"] = p.result.steps;
     run["newton_iterations"] = p.result.newton_iterations;

@@ -312,13 +312,7 @@ void ClothTree::let_sleep(const std::vector<char>* is_awake)
         const Face& face = surface_.faces[f];
         face_sleeps_[f] = std::all_of(face.begin(), face.end(), [this](int c) { return sleeps(c); });
     });
-    node_sleeps_.assign(nodes_.size(), 1);
-    for (int n = int(nodes_.size()) - 1; n >= 0; --n)
-        if (nodes_[n].right > 0)
-            node_sleeps_[n] = node_sleeps_[n + 1] && node_sleeps_[nodes_[n].right];
-        else
-            for (int k = 0; k < nodes_[n].count; ++k)
-                node_sleeps_[n] = node_sleeps_[n] && face_sleeps_[order_[nodes_[n].first + k]];
+    flag_nodes(face_sleeps_, true, node_sleeps_);
     std::copy_if(candidates_.begin(), candidates_.end(), std::back_inserter(asleep_),
                  [this](const PairCandidate& candidate) { return sleeps(candidate); });
 }

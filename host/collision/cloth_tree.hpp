@@ -181,6 +181,8 @@ private:
     void search_marked();
     void traverse(SearchCounts& counts);
     void note_skipped();
+    /// Flags nodes by the faces below them: where all are flagged, or any.
+    void flag_nodes(const std::vector<char>& faces, bool all, std::vector<char>& nodes) const;
     void visit(NodePair pair, std::vector<NodePair>& stack, Findings& found) const;
     FacesNear faces_near(const Node& leaf, const Sweep& box) const;
     void offer_pairs(int face_a, int face_b, Findings& found) const;

@@ -37,17 +37,25 @@ void ClothTree::search_marked()
         const Face& face = surface_.faces[f];
         face_marks_[f] = std::any_of(face.begin(), face.end(), [this](int c) { return is_marked(c); });
     });
-    node_marks_.assign(nodes_.size(), 0);
-    for (int n = int(nodes_.size()) - 1; n >= 0; --n)
-        if (nodes_[n].right > 0)
-            node_marks_[n] = node_marks_[n + 1] || node_marks_[nodes_[n].right];
-        else
-            for (int k = 0; k < nodes_[n].count; ++k)
-                node_marks_[n] = node_marks_[n] || face_marks_[order_[nodes_[n].first + k]];
+    flag_nodes(face_marks_, false, node_marks_);
     node_skipped_.assign(nodes_.size(), 0);
     for (int n : skipped_) node_skipped_[n] = 1;
     traverse(counts_.partial);
     note_skipped();
+}
+
+void ClothTree::flag_nodes(const std::vector<char>& faces, bool all, std::vector<char>& nodes) const
+{
+    nodes.assign(nodes_.size(), all);
+    const auto add = [&](int n, char flag) { nodes[n] = all ? nodes[n] && flag : nodes[n] || flag; };
+    for (int n = int(nodes_.size()) - 1; n >= 0; --n) {  // children are behind their parents
+        if (nodes_[n].right > 0) {
+            add(n, nodes[n + 1]);
+            add(n, nodes[nodes_[n].right]);
+        } else {
+            for (int k = 0; k < nodes_[n].count; ++k) add(n, faces[order_[nodes_[n].first + k]]);
+        }
+    }
 }
 
 void ClothTree::note_skipped()

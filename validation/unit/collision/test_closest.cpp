@@ -10,12 +10,24 @@ namespace {
 
 constexpr double keep = 0.1;
 
+struct MovingPair {
+    bool edges;
+    PairCorners x, move;
+};
+
 class Corners {
 public:
     explicit Corners(unsigned seed) : random_(seed) {}
     double number() { return uniform_(random_); }
     Vec3 point() { return {number(), number(), number()}; }
     PairCorners pair() { return {point(), point(), point(), point()}; }
+    // Of edges in every other trial. @param longest  the moves are up to this long in each direction
+    MovingPair moving_pair(int trial, double longest)
+    {
+        MovingPair moving{bool(trial % 2), pair(), pair()};
+        for (Vec3& u : moving.move) u *= longest;
+        return moving;
+    }
 
 private:
     std::mt19937 random_;
@@ -127,15 +139,26 @@ TEST_CASE("the closest point of a face is a corner, on an edge or inside, depend
     expect({0.2, 0.3, 5}, 0.5, 0.2, 0.3);
 }
 
+TEST_CASE("a point has a place in the plane of a face that has no area", "[closest]")
+{
+    for (real corner : {0.0, 0.5, 1.0}) {
+        const pair_weights p =
+            closest_point_plane(make_vec3(0.25, 1, 0), make_vec3(0, 0, 0), make_vec3(1, 0, 0), make_vec3(corner, 0, 0));
+        double sum = 0;
+        for (double w : p.w) {
+            REQUIRE(std::isfinite(w));
+            sum += w;
+        }
+        CHECK(sum == Approx(0).margin(1e-14));
+    }
+}
+
 TEST_CASE("on the free fraction of a move no pair comes nearer than the distance to keep", "[closest]")
 {
     Corners corners(4);
     int cut = 0;
     for (int trial = 0; trial < 400; ++trial) {
-        const bool edges = trial % 2;
-        const PairCorners x = corners.pair();
-        PairCorners move = corners.pair();
-        for (Vec3& u : move) u *= 3;
+        const auto [edges, x, move] = corners.moving_pair(trial, 3);
         const double distance = pair_distance(x, edges), part = free_part(x, move, edges);
         REQUIRE(part > 0);
         REQUIRE(part <= 1);
@@ -183,15 +206,13 @@ TEST_CASE("two primitives stay as far apart during a move as is told at its star
     Corners corners(6);
     int kept = 0;
     for (int trial = 0; trial < 400; ++trial) {
-        const bool edges = trial % 2;
-        const PairCorners x = corners.pair();
-        PairCorners move = corners.pair();
-        for (Vec3& u : move) u *= trial % 3;
+        const auto [edges, x, move] = corners.moving_pair(trial, trial % 3);
         const double apart = kept_apart(x, move, edges, pair_difference(x, edges));
         kept += apart > 0;
         for (int k = 0; k <= 100; ++k) CHECK(pair_distance(at(x, move, k / 100.0), edges) >= apart - 1e-12);
-        for (Vec3& u : move) u = Vec3(5, -3, 2);  // what both sides have in common brings them no nearer
-        CHECK(kept_apart(x, move, edges, pair_difference(x, edges)) >= pair_distance(x, edges) * (1 - 1e-9));
+        PairCorners common;  // what both sides have in common brings them no nearer
+        common.fill(Vec3(5, -3, 2));
+        CHECK(kept_apart(x, common, edges, pair_difference(x, edges)) >= pair_distance(x, edges) * (1 - 1e-9));
     }
     CHECK(kept > 100);
 }
