@@ -17,7 +17,9 @@ struct EndTuning {
     // [1] of its own height by which a garment that is still worn does not fall. Built-in garments settle by less than
     // a tenth; a skirt that slides from the waist to the feet falls by more than its height.
     static constexpr double worn_fall = 0.5;
-    static constexpr double touch = 1.5;        // [gap] cloth that lies on a body is within the gap, swinging or not
+    static constexpr double touch = 1.5;  // [gap] cloth that lies on a body is within the gap, swinging or not
+    // [1] of the cloth's extent: more than steps of 20 ms err by where cloth of 20 cm and more swings or meets a body.
+    static constexpr double long_step = 0.05;
     static constexpr double coarse_ulp = 0.01;  // [edge length] rounding of positions that can make triangles cross
 };
 
@@ -141,6 +143,21 @@ std::vector<Finding> find_lost_garment(const ClothModel& model, const Phase& pha
         fall.fall = middle_and_extent(positions, down)[0] - start;
     }
     return find_lost_garment(model, fall);
+}
+
+std::vector<Finding> find_long_steps(const MotionAccuracy& accuracy, const std::vector<Vec3>& positions)
+{
+    Eigen::AlignedBox3d box;
+    for (const Vec3& x : positions) box.extend(x);
+    const double part = accuracy.largest_error / box.diagonal().norm();
+    if (!(part > EndTuning::long_step)) return {};
+    return {
+        {"long_steps",
+         {},
+         fmt::format("steps are long for this motion: the one that ends at {:.4g} s errs by about {:.3g} mm, {:.0f} % "
+                     "of the cloth's extent",
+                     accuracy.error_time, 1000 * accuracy.largest_error, 100 * part),
+         "a shorter solver.step, or solver.adaptive = true"}};
 }
 
 std::vector<Finding> findings_that_mattered(const std::vector<Finding>& before, bool complete,

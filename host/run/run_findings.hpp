@@ -5,6 +5,7 @@
 #include "host/mesh/self_intersections.hpp"
 #include "host/model/cloth_model.hpp"
 #include "host/solver/stepping/phase.hpp"
+#include "io/run/summary.hpp"
 
 namespace selvage {
 
@@ -35,6 +36,11 @@ std::vector<Finding> find_lost_garment(const ClothModel& model, const GarmentFal
 /// The same, measured at the end of a phase; nothing for cloth that is no garment.
 /// @param positions  per cloth vertex [m]
 std::vector<Finding> find_lost_garment(const ClothModel& model, const Phase& phase, const std::vector<Vec3>& positions);
+
+/// Returns what is to be said of a motion whose steps are long for it: nothing, or the one that errs most, by the
+/// integrator's own estimate.
+/// @param positions  per cloth vertex, whose extent the error is compared with [m]
+std::vector<Finding> find_long_steps(const MotionAccuracy& accuracy, const std::vector<Vec3>& positions);
 
 /// Of what was found before a run, that which explains an end that is not as asked.
 /// @param complete  the run came to its asked end   @param at_end  what was found there

@@ -319,6 +319,7 @@ std::vector<Finding> RunRecorder::conclude(RunStatus status, const LastState& la
     if (crossings.counted && !last.bodies.empty()) s.body_intersections = crossings.count_with_bodies();
     std::vector<Finding> at_end = find_end_crossings(model_.cloth_model, crossings);
     if (is_complete(status)) append_findings(at_end, find_lost_garment(model_.cloth_model, phase, last.positions));
+    append_findings(at_end, find_long_steps(counters.accuracy, last.positions));
     warn(at_end);
     std::vector<Finding> told = model_.findings;
     append_findings(told, at_end);

@@ -14,7 +14,7 @@ struct NewtonOptions {
     double velocity_tolerance = 0;  ///< A step has also converged when an iteration wants to move no vertex faster
                                     ///< than this [m/s].
     /// Above 0: the step is to be solved. It has converged when the acceleration that is left to find is below this, as
-    /// root mean square over the free mass or for the fastest vertex [m/s^2]. Linear solves then end by their error in
+    /// root mean square over the free mass [m/s^2]. Linear solves then end by their error in
     /// the energy norm, ways bend where stretch asks for it, and the expected place is where the step starts from.
     double acceleration_left = 0;
     double linear_tolerance = 0.05;  ///< Relative residual of the linear solves [1], where the step need not be solved.
