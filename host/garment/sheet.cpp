@@ -74,8 +74,8 @@ InputPlace place_of_face(const LoadedSheet& loaded, const InputPlace& place, int
 void describe_panel(const SheetScene& sheet, const LoadedSheet& loaded, Cloth& cloth, const InputPlace& place)
 {
     const std::string& name = sheet.name.empty() ? place.key : sheet.name;
-    ClothPanel panel{name, sheet.fabric, 0, int(cloth.panel_coordinates.size()), 0, int(cloth.faces.size()), 0, 0};
-    panel.file_numbers = loaded.numbers;
+    ClothPanel panel{name,  sheet.fabric,  0, int(cloth.panel_coordinates.size()), 0, int(cloth.faces.size()), 0, 0,
+                     false, loaded.numbers};
     // The smaller vertex, the larger one, whether they run that way, and the face.
     std::vector<std::array<int, 4>> sides;
     sides.reserve(3 * cloth.faces.size());

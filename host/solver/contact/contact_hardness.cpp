@@ -12,8 +12,8 @@ ContactHardness local_hardness(const Topology& topology, const Cloth& cloth, con
 {
     double heaviest = 0;
     for (const auto& [name, fabric] : fabrics) heaviest = std::max(heaviest, fabric.areal_density);
-    ContactHardness hardness{std::vector<double>(std::size_t(topology.particle_count)),
-                             std::vector<double>(bodies.size(), 1.0)};
+    ContactHardness hardness{
+        std::vector<double>(std::size_t(topology.particle_count)), std::vector<double>(bodies.size(), 1.0), {}};
     for (const ClothPanel& panel : cloth.panels) {
         const double of_panel = fabrics.at(panel.fabric).areal_density / heaviest;
         for (int v = panel.first_vertex; v < panel.first_vertex + panel.vertex_count; ++v) {
