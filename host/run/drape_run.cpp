@@ -30,17 +30,45 @@ DrapeRun::DrapeRun(const Scene& scene, const RunOptions& options, RunFolder& fol
         query_.emplace(model_.cloth_model.bodies, cloth_reach(model_.cloth_model.cloth));
 }
 
+// Seams that would not close are left to pull.
+bool DrapeRun::seams_are_open() const
+{
+    return progress_.stage != RunStage::coarse && !all_welded(progress_.sewing.welded);
+}
+
 double DrapeRun::elapsed() const
 {
     return wall_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
 }
 
+namespace {
+
+// How a garment is draped whose seams have not all closed: those still pull.
+PhaseOptions with_open_seams(const ClothSettings& settings, const std::vector<char>& welded)
+{
+    PhaseOptions options = settings.draping;
+    options.joined = false;
+    options.welded = welded;
+    options.params.seam = settings.sewing.params.seam;
+    return options;
+}
+
+}  // namespace
+
 void DrapeRun::start_phase(RunStage stage, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)
 {
     const TraceScope scope("start_phase");
-    const PhaseOptions& options = stage == RunStage::sew ? settings_.cloth.sewing : settings_.cloth.draping;
     integrator_.reset();
     phase_.reset();  // two phases at once would double the memory
+    sewing_.reset();
+    if (stage == RunStage::sew) {
+        const auto renew = [this] { integrator_ = make_integrator(word_of(settings_.integrator), *phase_); };
+        sewing_.emplace(model_, settings_.cloth, progress_.sewing, profile_, phase_, renew);
+        sewing_->start();
+        return;
+    }
+    const PhaseOptions options =
+        seams_are_open() ? with_open_seams(settings_.cloth, progress_.sewing.welded) : settings_.cloth.draping;
     phase_ = std::make_unique<Phase>(model_.cloth_model, options, meets_bodies(options.params) ? &*query_ : nullptr,
                                      profile_, positions, velocities);
     integrator_ = make_integrator(word_of(settings_.integrator), *phase_);
@@ -59,7 +87,9 @@ void DrapeRun::begin()
 void DrapeRun::start_afresh(RunStage stage)
 {
     start_phase(stage, model_.cloth_model.cloth.positions, {});
-    recorder_->open_phase(stage, phase_->topology(), -1);
+    // A garment that is being sewn is shown as panels.
+    const bool sews = stage == RunStage::sew;
+    recorder_->open_phase(stage, sews ? make_topology(model_.cloth_model.cloth, false) : phase_->topology(), -1);
     progress_.stage = stage;
     // Panels that have been joined unsewn are no sight.
     const bool shows = stage != RunStage::coarse || !model_.sews;
@@ -189,8 +219,7 @@ bool DrapeRun::must_stop() const
 PhaseEnd DrapeRun::run_sewing()
 {
     const TraceScope scope("sew");
-    return sew(*phase_, settings_.cloth.sew, progress_.sewing,
-               [this](const StepEvent& event) { return after_step(event); });
+    return sewing_->run([this](const StepEvent& event) { return after_step(event); });
 }
 
 void DrapeRun::join_seams()
@@ -310,8 +339,8 @@ RunOutcome DrapeRun::conclude(RunStatus status, std::string message)
     // A garment that is still being pressed is not yet the draped one that run.h5 begins with.
     if (progress_.stage != RunStage::press) recorder_->write_frame(*phase_, event, elapsed(), true);
     recorder_->close_phase();
-    const double bodies_time = progress_.stage == RunStage::sew ? 0 : time;  // they wait for the garment
-    const LastState last = recorder_->last_state(bodies_time, *phase_);
+    const LastState last =
+        recorder_->last_state(sewing_ ? sewing_->bodies() : model_.cloth_model.bodies, time, *phase_);
     bool complete = is_complete(status);
     if (!recorder_->show_last(last, phase_->topology()) && complete) {
         complete = false;
@@ -319,7 +348,7 @@ RunOutcome DrapeRun::conclude(RunStatus status, std::string message)
         message = "interrupted while the picture was drawn: the state is saved, --resume draws it";
     }
     const std::vector<Finding> at_end =
-        recorder_->conclude(status, last, *phase_, plan_, query_ ? &*query_ : nullptr, progress_.counters,
+        recorder_->conclude(status, last, *phase_, plan_, query_ && !sewing_ ? &*query_ : nullptr, progress_.counters,
                             progress_.stability, progress_.coarse.stages, profile_, residual, elapsed(), message);
     if (complete && !settings_.output.keep_checkpoint) folder_.remove("checkpoint.h5");
     int code = complete ? 0 : 4;
@@ -345,9 +374,9 @@ RunOutcome DrapeRun::conclude_stopped()
 
 std::string DrapeRun::why_not_done() const
 {
-    if (progress_.stage == RunStage::drape)
-        return describe(explain(unrest_facts(model_, *phase_, progress_.draping.residual, settings_.drape.tolerance)));
-    return describe(explain(open_seam_facts(model_, *phase_)));
+    const std::string unrest =
+        describe(explain(unrest_facts(model_, *phase_, progress_.draping.residual, settings_.drape.tolerance)));
+    return seams_are_open() ? describe(explain(open_seam_facts(model_, *phase_))) + "\n" + unrest : unrest;
 }
 
 RunOutcome DrapeRun::execute()
@@ -361,6 +390,8 @@ RunOutcome DrapeRun::execute()
         progress_.ended = end == PhaseEnd::reached;
         if (end == PhaseEnd::stopped) return conclude_stopped();
         if (end == PhaseEnd::time_limit) return conclude(RunStatus::time_limit, why_not_done());
+        if (seams_are_open())
+            return conclude(RunStatus::time_limit, describe(explain(open_seam_facts(model_, *phase_))));
         const bool timed = !settings_.until.equilibrium;
         return timed ? conclude(RunStatus::finished, "") : conclude_at_rest();
     } catch (const UnstableStepError& error) {

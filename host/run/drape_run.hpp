@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "host/run/garment_sewing.hpp"
 #include "host/run/progressive.hpp"
 #include "host/run/restart.hpp"
 #include "host/run/run.hpp"
@@ -33,6 +34,7 @@ private:
     PhaseEnd run_phases();
     PhaseEnd run_sewing();
     void join_seams();
+    bool seams_are_open() const;
     PhaseEnd run_pressing();
     EquilibriumOptions draping_options();
     PhaseEnd run_coarse();
@@ -63,6 +65,7 @@ private:
     std::unique_ptr<Phase> phase_;
     std::unique_ptr<Integrator> integrator_;  ///< Of the drape; sewing has its own.
     RunProgress progress_;
+    std::optional<GarmentSewing> sewing_;  ///< While the garment is sewn.
     RunProgress repeats_from_;    ///< What a run resumed in the middle of a coarse stage or an attempt goes on from.
     double wall_before_ = 0;      ///< Of the runs that this one resumes [s].
     bool stopped_ = false;        ///< By RunOptions::after_checkpoint.

@@ -8,6 +8,7 @@
 #include "host/model/body.hpp"
 #include "host/parallel/launch.hpp"
 #include "host/run/cloth_picture.hpp"
+#include "host/run/garment_sewing.hpp"
 #include "host/solver/contact/cloth_body_contact.hpp"
 #include "io/errors.hpp"
 
@@ -50,14 +51,20 @@ struct Stage {
 // Sews a garment at this stage and presses its seams.
 PhaseEnd sew_stage(Stage& stage, Profile& profile, const AfterStep& after_step)
 {
-    const SewingOptions& options = stage.settings.sew;
-    SewingProgress sewing;
-    stage.start(stage.settings.sewing, stage.model.cloth_model.cloth.positions, profile);
-    const PhaseEnd end = sew(*stage.phase, options, sewing, after_step);
+    SewingProgress progress;
+    PhaseEnd end = PhaseEnd::reached;
+    std::vector<Vec3> positions;
+    {
+        GarmentSewing sewing(stage.model, stage.settings, progress, profile, stage.phase, [] {});
+        sewing.start();
+        end = sewing.run(after_step);
+        positions = stage.phase->positions();
+    }
     if (end != PhaseEnd::reached) return end;
-    stage.start(stage.settings.draping, stage.phase->positions(), profile);
+    if (!all_welded(progress.welded)) return PhaseEnd::time_limit;
+    stage.start(stage.settings.draping, positions, profile);
     PressProgress pressing;
-    return press_seams(*stage.phase, options.step, pressing, after_step);
+    return press_seams(*stage.phase, stage.settings.sew.step, pressing, after_step);
 }
 
 // @param sews  the garment has not been sewn yet

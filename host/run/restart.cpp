@@ -69,11 +69,16 @@ void visit_steps(Memory& memory, const std::string& of, const Visit& visit)
 template <class Progress, class Visit>
 void visit_sewing(Progress& sewing, const Visit& visit)
 {
-    auto& [best_gap, steps_without_gain, elastic_energy, gap, energy_change, steps] = sewing;
-    visit("sewing.best_gap", best_gap);
-    visit("sewing.steps_without_gain", steps_without_gain);
+    // Which pairs are welded is not always there.
+    auto& [welded, steps_since_look, harder, looks_in_vain, open_way, grows_from, settled_steps, elastic_energy,
+           energy_change, steps] = sewing;
+    visit("sewing.steps_since_look", steps_since_look);
+    visit("sewing.harder", harder);
+    visit("sewing.looks_in_vain", looks_in_vain);
+    visit("sewing.open_way", open_way);
+    visit("sewing.grows_from", grows_from);
+    visit("sewing.settled_steps", settled_steps);
     visit("sewing.elastic_energy", elastic_energy);
-    visit("sewing.gap", gap);
     visit("sewing.energy_change", energy_change);
     visit_steps(steps, "sewing", visit);
 }
@@ -204,7 +209,8 @@ CoarseStart coarse_of(const CheckpointLoader& load, const std::vector<std::size_
 RunIdentity identity_of(const RunSettings& settings, const SceneModel& model)
 {
     const ClothModel& cloths = model.cloth_model;
-    RunIdentity identity{settings.values, hash_of_meshes(cloths), {}, int(cloths.cloth.faces.size())};
+    RunIdentity identity{
+        settings.values, hash_of_meshes(cloths), {}, int(cloths.cloth.faces.size()), cloths.cloth.seam_pairs.size()};
     for (std::size_t level = settings.coarser.size(); level-- > 0;)
         identity.carried_to.push_back((level == 0 ? cloths.cloth : cloths.coarser[level - 1]).positions.size());
     return identity;
@@ -224,6 +230,7 @@ void save_run(const std::string& path, const RunIdentity& identity, const RunPro
     visit_progress(progress, save);
     save_stability(save, p.stability);
     save_coarse(save, p.coarse);
+    save("sewing.welded", p.sewing.welded);
     for (const auto& [name, seconds] : p.counters.phases) save(std::string(seconds_prefix) + name, seconds);
     save_phase(checkpoint, phase, integrator);
     write_checkpoint(path, checkpoint);
@@ -247,6 +254,7 @@ RunProgress load_progress(const Checkpoint& checkpoint, const std::string& path,
     visit_progress(p, load);
     p.ended = p.ended && now["solver.until"] == before["solver.until"];
     p.stability = stability_of(load);
+    if (!load.integers("sewing.welded").empty()) p.sewing.welded = load.flags("sewing.welded", identity.seam_pairs);
     p.coarse = coarse_of(load, identity.carried_to, p.stage == RunStage::coarse);
     if (p.frames < 0) load.refuse("frames", fmt::format("{}", p.frames), "a count");
     p.counters.largest.face = load.integer("largest.face", -1, identity.faces - 1);

@@ -32,7 +32,8 @@ struct RunIdentity {
     std::string meshes;                        ///< Hash of the meshes of cloth and bodies that came of it.
     /// Vertices of the cloth that the shape of each coarse stage is carried over to, in the order of the stages.
     std::vector<std::size_t> carried_to;
-    int faces = 0;  ///< Of the cloth.
+    int faces = 0;               ///< Of the cloth.
+    std::size_t seam_pairs = 0;  ///< Of the cloth.
 };
 
 RunIdentity identity_of(const RunSettings& settings, const SceneModel& model);

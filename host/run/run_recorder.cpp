@@ -233,10 +233,10 @@ bool RunRecorder::draw(const LastState& last, const Topology& topology)
     return true;
 }
 
-LastState RunRecorder::last_state(double bodies_time, const Phase& phase) const
+LastState RunRecorder::last_state(const std::vector<Body>& bodies, double time, const Phase& phase) const
 {
     LastState last{phase.positions(), shared_faces(model_.cloth_model.cloth, phase.topology()), {}};
-    for (const Body& body : model_.cloth_model.bodies) last.bodies.push_back(body_mesh_at(body, bodies_time));
+    for (const Body& body : bodies) last.bodies.push_back(body_mesh_at(body, time));
     return last;
 }
 

@@ -76,7 +76,7 @@ public:
 
     /// Returns where cloth and bodies are.
     /// @param bodies_time  at which the bodies are shown [s]
-    LastState last_state(double bodies_time, const Phase& phase) const;
+    LastState last_state(const std::vector<Body>& bodies, double time, const Phase& phase) const;
     /// Writes final.obj, body.obj and preview.png.
     /// @returns false if a signal has broken the picture off
     bool show_last(const LastState& last, const Topology& topology);

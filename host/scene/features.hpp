@@ -36,6 +36,9 @@ bool is_kernel(std::string_view feature);
 /// Why a feature is off; empty: it is on. @param params  those of the case's phase
 std::string why_off(const FeatureCase& with, std::string_view feature, const Params& params);
 
+/// Why bodies are not made thin while a garment is sewn; empty: they are.
+std::string why_no_thin_bodies(const Scene& scene, const SceneModel& model);
+
 /// The parameters of every term and velocity filter in one phase of a scene; a strength of zero leaves a term out.
 /// While seams are pulled closed there is no gravity and no friction, and panels resist bending more.
 Params phase_params(const Scene& scene, const SceneModel& model, bool sewing);

@@ -33,7 +33,7 @@ std::size_t solver_bytes(const Scene& scene, const ClothModel& model, const Topo
 #undef ADD_PLACES
     ParticleProlongations prolongations;
     if (options.linear.preconditioner == Preconditioner::multigrid)
-        prolongations = particle_prolongations(model, topology, options.joined);
+        prolongations = particle_prolongations(model, topology, options);
     const std::size_t turns = fields[std::size_t(Field::hinge_slope)] ? 2 * std::size_t(size.hinge_count) * scalar : 0;
     return linear_solver_bytes(pattern_of(topology, fields[std::size_t(Field::hinge_slots)]), prolongations, scalar) +
            places + turns;

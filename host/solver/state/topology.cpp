@@ -8,7 +8,7 @@ namespace selvage {
 namespace {
 
 // Union-find over sewn vertices; the smallest vertex stands for its group, so numbering stays local.
-std::vector<int> sewn_groups(const Cloth& cloth)
+std::vector<int> sewn_groups(const Cloth& cloth, const std::vector<char>& welded)
 {
     std::vector<int> parent(cloth.positions.size());
     std::iota(parent.begin(), parent.end(), 0);
@@ -16,8 +16,9 @@ std::vector<int> sewn_groups(const Cloth& cloth)
         while (parent[v] != v) v = parent[v] = parent[parent[v]];
         return v;
     };
-    for (const auto& [a, b] : cloth.seam_pairs) {
-        const int ra = root(a), rb = root(b);
+    for (std::size_t k = 0; k < welded.size(); ++k) {
+        if (!welded[k]) continue;
+        const int ra = root(cloth.seam_pairs[k][0]), rb = root(cloth.seam_pairs[k][1]);
         parent[std::max(ra, rb)] = std::min(ra, rb);
     }
     for (int v = 0; v < int(parent.size()); ++v) parent[v] = root(v);
@@ -58,21 +59,40 @@ void find_hinges(Topology& topology)
 
 Topology make_topology(const Cloth& cloth, bool joined)
 {
+    return make_topology(cloth, std::vector<char>(joined ? cloth.seam_pairs.size() : 0, 1));
+}
+
+Topology make_topology(const Cloth& cloth, const std::vector<char>& welded)
+{
     Topology topology;
     const int vertex_count = int(cloth.positions.size());
     topology.particle_of.resize(vertex_count);
-    const std::vector<int> group = joined ? sewn_groups(cloth) : std::vector<int>();
-    for (int v = 0; v < vertex_count; ++v) {
-        const bool own = !joined || group[v] == v;
-        topology.particle_of[v] = own ? topology.particle_count++ : topology.particle_of[group[v]];
-    }
+    const std::vector<int> group = sewn_groups(cloth, welded);
+    for (int v = 0; v < vertex_count; ++v)
+        topology.particle_of[v] = group[v] == v ? topology.particle_count++ : topology.particle_of[group[v]];
     topology.faces.reserve(cloth.faces.size());
     for (const Face& f : cloth.faces)
         topology.faces.push_back({topology.particle_of[f[0]], topology.particle_of[f[1]], topology.particle_of[f[2]]});
     find_hinges(topology);
-    if (!joined)
-        for (const auto& pair : cloth.seam_pairs) topology.stitches.push_back(pair);
+    for (const auto& [a, b] : cloth.seam_pairs)
+        if (const int p = topology.particle_of[a], q = topology.particle_of[b]; p != q)
+            topology.stitches.push_back({p, q});
     return topology;
+}
+
+std::vector<char> coarser_welds(const Cloth& fine, const std::vector<char>& welded, const Cloth& coarse)
+{
+    std::vector<char> result(coarse.seam_pairs.size());
+    for (std::size_t s = 0; s < std::min(welded.empty() ? 0 : fine.seams.size(), coarse.seams.size()); ++s) {
+        const Seam &from = fine.seams[s], &to = coarse.seams[s];
+        if (from.pair_count == 0) continue;
+        for (int k = 0; k < to.pair_count; ++k) {
+            const double place = to.pair_count > 1 ? double(k) / (to.pair_count - 1) : 0.5;
+            const int at = int(std::lround(place * (from.pair_count - 1)));
+            result[to.first_pair + k] = welded[from.first_pair + at];
+        }
+    }
+    return result;
 }
 
 mesh_sizes topology_sizes(const Topology& topology, int material_count, int coupling_count)

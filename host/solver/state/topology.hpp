@@ -25,6 +25,14 @@ struct Topology {
 ///                true: sewn vertices are one particle and no stitch is left.
 Topology make_topology(const Cloth& cloth, bool joined);
 
+/// Connects a cloth that is partly sewn.
+/// @param welded  per pair of Cloth::seam_pairs, 1: its vertices are one particle; empty: none is
+Topology make_topology(const Cloth& cloth, const std::vector<char>& welded);
+
+/// Returns the pairs of a coarser cloth of the same pattern that are one particle there: those whose seam is welded
+/// where they stand in it. @param welded  of the pairs of the fine cloth, as in make_topology
+std::vector<char> coarser_welds(const Cloth& fine, const std::vector<char>& welded, const Cloth& coarse);
+
 /// Counts and padded strides of every kind of item.
 /// @param coupling_count  entries of the plate's matrix; 0 without one
 mesh_sizes topology_sizes(const Topology& topology, int material_count, int coupling_count = 0);

@@ -19,7 +19,8 @@ constexpr double lift_of_edge = 0.5;  // how much further off a body what it pie
 Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
 {
     const TraceScope scope("topology");
-    Topology topology = make_topology(model.cloth, options.joined);
+    Topology topology =
+        options.joined ? make_topology(model.cloth, true) : make_topology(model.cloth, options.welded);
     add_springs(topology, model.cloth, model.fabrics, springs_of(options.params));
     return topology;
 }
@@ -62,7 +63,7 @@ std::unique_ptr<LinearSolver> linear_solver(const ClothModel& model, const Phase
 {
     const bool multigrid = options.linear.preconditioner == Preconditioner::multigrid;
     const ParticleProlongations prolongations =
-        multigrid ? particle_prolongations(model, topology, options.joined) : ParticleProlongations{};
+        multigrid ? particle_prolongations(model, topology, options) : ParticleProlongations{};
     const TraceScope scope("linear_solver");
     return options.float_solves ? make_linear_solver_float(state, options.linear, prolongations)
                                 : make_linear_solver_double(state, options.linear, prolongations);
@@ -70,13 +71,16 @@ std::unique_ptr<LinearSolver> linear_solver(const ClothModel& model, const Phase
 
 }  // namespace
 
-ParticleProlongations particle_prolongations(const ClothModel& model, const Topology& finest, bool joined)
+ParticleProlongations particle_prolongations(const ClothModel& model, const Topology& finest,
+                                             const PhaseOptions& options)
 {
     const TraceScope scope("particle_prolongations");
     ParticleProlongations prolongations;
     Topology finer = finest;
     for (std::size_t level = 0; level < model.coarser.size(); ++level) {
-        Topology coarse = make_topology(model.coarser[level], joined);
+        const Cloth& cloth = model.coarser[level];
+        Topology coarse = options.joined ? make_topology(cloth, true)
+                                         : make_topology(cloth, coarser_welds(model.cloth, options.welded, cloth));
         prolongations.push_back(particle_prolongation(model.prolongations[level], coarse, finer));
         finer = std::move(coarse);
     }

@@ -12,12 +12,10 @@
 
 namespace selvage {
 
-/// Interpolations between the particles of a model's cloths, finest first. @param finest  of model.cloth
-ParticleProlongations particle_prolongations(const ClothModel& model, const Topology& finest, bool joined);
-
 struct PhaseOptions {
     Params params;
-    bool joined = true;  ///< Sewn vertices are one particle.
+    bool joined = true;        ///< Sewn vertices are one particle.
+    std::vector<char> welded;  ///< Where they are not: those that are all the same; see make_topology.
     bool float_solves = false;
     LinearOptions linear;
     double contact_margin = 0.03;  ///< See ClothBodyContact [m].
@@ -26,6 +24,10 @@ struct PhaseOptions {
     bool local_stiffness = false;
     std::optional<Air> air;  ///< See Surroundings.
 };
+
+/// Interpolations between the particles of a model's cloths, finest first. @param finest  of model.cloth
+ParticleProlongations particle_prolongations(const ClothModel& model, const Topology& finest,
+                                             const PhaseOptions& options);
 
 /// One phase of a run, sewing or draping: a cloth's particles as a system, and what solves its steps.
 class Phase {

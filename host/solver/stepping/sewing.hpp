@@ -1,22 +1,31 @@
 #pragma once
+#include <memory>
+#include <vector>
+
 #include "host/solver/stepping/step_control.hpp"
 
 namespace selvage {
 
 struct SewingOptions {
     double step = 0.02;              ///< [s]
-    double closed = 0.002;           ///< Gap below which a pair counts as closed [m].
+    double closed = 0.002;           ///< Gap below which a pair is welded [m].
     double energy_tolerance = 1e-4;  ///< Relative change of elastic energy between steps at which sewing may end [1].
-    double max_time = 6;             ///< [s]
+    double max_time = 20;            ///< After which seams that are still open are given up [s].
     double first_stiffness = 0;      ///< Seam stiffness at the start of sewing [N/m].
+    double first_limit = 0;          ///< Seam force limit then [N].
+    double thin = 0;                 ///< Part of their thickness by which bodies are thin meanwhile [1].
 };
 
-/// Where a sewing phase stands; kept in checkpoints.
+/// Where sewing stands; kept in checkpoints.
 struct SewingProgress {
-    double best_gap = 1e30;  ///< Smallest value of the largest gap so far [m].
-    int steps_without_gain = 0;
+    std::vector<char> welded;   ///< Per pair of Cloth::seam_pairs: it is one particle; empty: nothing is sewn yet.
+    int steps_since_look = 0;   ///< Steps since pairs were last looked at.
+    int harder = 0;             ///< How many times seams are pulled harder than at first.
+    int looks_in_vain = 0;      ///< Looks one after the other at the hardest pull that found no headway.
+    double open_way = 1e30;     ///< Sum of all gaps at the last look [m].
+    double grows_from = -1;     ///< When bodies began to grow back [s]; below 0: seams are being closed.
+    int settled_steps = 0;      ///< Steps since bodies have their size.
     double elastic_energy = 0;  ///< After the last step [J].
-    double gap = 1e30;          ///< Largest gap after the last step [m].
     double energy_change = 1;   ///< Relative, of the last step [1].
     StepMemory steps = {};
 };
@@ -27,12 +36,40 @@ struct PressProgress {
     StepMemory steps = {};
 };
 
+/// A cloth while it is sewn: what its phase is made of, which is made anew whenever pairs are welded.
+struct SewnCloth {
+    const ClothModel& model;
+    PhaseOptions options;
+    BodyQuery* query;
+    Profile& profile;
+    std::unique_ptr<Phase>& phase;
+    std::function<void()> remade = [] {};  ///< Called whenever the phase is another one.
+};
+
 /// Returns the largest distance of a stitched pair [m], 0 without stitches.
 double largest_gap(const Phase& phase);
 
-/// Draws the panels together: springs, seam force, damping and contact, no gravity, until every pair is
-/// closer than `closed` and the elastic energy has settled. A seam that makes no headway is pulled harder.
-PhaseEnd sew(Phase& phase, const SewingOptions& options, SewingProgress& progress, const AfterStep& after_step);
+/// Which pairs of a cloth start at one place: they are sewn before the first step.
+std::vector<char> coinciding_pairs(const Cloth& cloth);
+
+/// True if no pair is left to weld.
+bool all_welded(const std::vector<char>& welded);
+
+/// Makes the phase anew, with what progress says is welded and at its pull. What is at one place becomes one particle,
+/// which keeps mass and momentum. @param positions  per cloth vertex [m]   @param clock  goes on
+void remake_phase(SewnCloth& cloth, const SewingOptions& options, const SewingProgress& progress,
+                  const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities, Clock clock);
+
+/// Draws the panels together: springs, seam force, damping and contact, no gravity. Every few steps the pairs that have
+/// come close are welded; where none has and the gaps do not shrink, seams are pulled harder.
+/// @returns reached: all are welded; time_limit: the others have been given up
+PhaseEnd close_seams(SewnCloth& cloth, const SewingOptions& options, SewingProgress& progress,
+                     const AfterStep& after_step);
+
+/// Goes on while bodies move by themselves to what they are without sewing, and until the cloth has settled on them.
+/// Seams that are open still are pulled and welded. @returns reached, or stopped
+PhaseEnd let_bodies_grow(SewnCloth& cloth, const SewingOptions& options, SewingProgress& progress,
+                         const AfterStep& after_step);
 
 /// Presses the seams of a garment that has just been joined: a few steps without gravity and friction in which the
 /// cloth resists bending many times more than it will. Laps that sewing left at a seam fold open.
