@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 
+#include "host/collision/body_query.hpp"
 #include "host/parallel/launch.hpp"
 
 namespace selvage {
@@ -205,6 +206,29 @@ std::vector<Body> growing_bodies(const std::vector<Body>& thin, const std::vecto
         bodies[b].motion = std::move(motion);
     }
     return bodies;
+}
+
+bool seams_meet_bodies(const Cloth& cloth, const std::vector<Body>& bodies)
+{
+    std::vector<Body> meshes;
+    for (const Body& body : bodies)
+        if (body.kind == Body::Kind::mesh) meshes.push_back(body);
+    for (Body& body : meshes) body.motion.reset();
+    std::vector<Vec3> ends[2];
+    for (const auto& pair : cloth.seam_pairs)
+        for (int k = 0; k < 2 && cloth.positions[pair[0]] != cloth.positions[pair[1]]; ++k)
+            ends[k].push_back(cloth.positions[pair[k]]);
+    const int count = int(ends[0].size());
+    if (meshes.empty() || count == 0) return false;
+    std::vector<double> planes[2];
+    for (int k = 0; k < 2; ++k)
+        for (int c = 0; c < 3; ++c)
+            for (const Vec3& x : ends[k]) planes[k].push_back(x[c]);
+    BodyQuery query(meshes, box_of(cloth.positions));
+    const std::vector<BodyCrossing> entries = query.crossings(planes[0].data(), planes[1].data(), count, count);
+    const std::vector<double> distances = query.signed_distances(ends[0]);
+    return std::any_of(entries.begin(), entries.end(), [](const BodyCrossing& entry) { return entry.body >= 0; }) ||
+           std::any_of(distances.begin(), distances.end(), [](double distance) { return distance < 0; });
 }
 
 }  // namespace selvage

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "host/model/body.hpp"
+#include "host/model/cloth.hpp"
 
 namespace selvage {
 
@@ -19,5 +20,9 @@ std::vector<Body> thin_bodies(const std::vector<Body>& bodies, double part);
 /// @param whole  the bodies themselves, where they are at time 0
 std::vector<Body> growing_bodies(const std::vector<Body>& thin, const std::vector<Body>& whole, double start,
                                  double length);
+
+/// True if a seam has a pair whose vertices start apart, and the straight way between them meets a body of a mesh where
+/// it is at time 0: pulled straight the pair would press on the body from both sides.
+bool seams_meet_bodies(const Cloth& cloth, const std::vector<Body>& bodies);
 
 }  // namespace selvage

@@ -396,6 +396,7 @@ std::string why_no_thin_bodies(const Scene& scene, const SceneModel& model)
     if (!scene.contact.body) return "contact.body is false";
     if (std::none_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.kind == Body::Kind::mesh; }))
         return "no body is a mesh";
+    if (!model.body_between) return "no body stands between the sides of a seam";
     return scene.seams.thin == 0 ? "seams.thin is 0" : on;
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "host/collision/thin_body.hpp"
 #include "host/examine/cloth_start.hpp"
 #include "host/examine/pattern.hpp"
 #include "host/examine/scene.hpp"
@@ -241,6 +242,7 @@ SceneModel build_scene_model(const Scene& scene)
     if (scene.has_garment())
         append_findings(result.findings, examine_pattern(pattern, result.cloth_model.cloth, scene.garment.resolution));
     result.sews = !seams_are_closed(result.cloth_model.cloth);
+    result.body_between = result.sews && seams_meet_bodies(result.cloth_model.cloth, result.cloth_model.bodies);
     result.edge_length = typical_edge(result.cloth_model.cloth);
     find_limits(scene, result);
     append_findings(result.findings, examine_scene(scene, result.cloth_model, result.edge_length));
@@ -265,6 +267,7 @@ SceneModel coarser_model(const SceneModel& model, std::size_t level)
                           whole.fabrics,
                           whole.bodies};
     result.sews = model.sews;
+    result.body_between = model.body_between;
     result.edge_length = typical_edge(result.cloth_model.cloth);
     return result;
 }

@@ -14,6 +14,7 @@ struct SceneModel {
     ClothModel cloth_model;
     std::vector<Finding> findings;
     bool sews = false;          ///< There are seams to close before draping.
+    bool body_between = false;  ///< A mesh body stands between the two sides of a seam.
     double edge_length = 0.01;  ///< Typical rest edge of the finest cloth [m].
 };
 

@@ -19,7 +19,7 @@ struct SewingTuning {
     static constexpr double limit_growth = 1.5;    // factor of the seam's force limit at the same time
     static constexpr int hardest = 10;             // times that it may be
     static constexpr int patience = 8;             // looks without headway at the hardest pull: given up
-    static constexpr int most_settling = 25;       // steps on bodies that have their size
+    static constexpr int most_settling = 8;        // steps on bodies that have their size
     static constexpr double press_bending = 100;   // times the fabric's bending rigidity: laps at seams fold open
     static constexpr int press_steps = 20;         // of pressing
 };
