@@ -22,6 +22,10 @@ struct ThinTuning {
     static constexpr int smooth_rounds = 8;        // of radii, and as many of ways
     static constexpr double limit = 1.02;          // times the mean radius around
     static constexpr double touching = 1e-4;       // [m]: a ball that holds nothing deeper is free
+    // What sticks out of something far thicker, as ears do, moves along with it: radii below this part of the largest
+    // one within that distance [m]. Ears are thinner by 10 than heads, arms by 3 than chests, fingers by 2 than hands.
+    static constexpr double sticks_out = 0.25, beside = 0.04;
+    static constexpr int carry_rounds = 50;  // of smoothing how what sticks out moves
     // Part of the way back and of the time at which a growing body is there: slow near the end, where cloth is tight.
     static constexpr std::array<std::array<double, 2>, 3> pace = {{{0.5, 0.3}, {0.8, 0.6}, {1.0, 1.0}}};
 };
@@ -43,6 +47,13 @@ public:
         return best.point;
     }
 
+    // Calls with each point within a distance of x.
+    template <class Hear>
+    void within(const Vec3& x, double radius, const Hear& hear) const
+    {
+        collect(x, radius, 0, int(order_.size()), 0, hear);
+    }
+
 private:
     struct Best {
         int point = -1;
@@ -57,6 +68,17 @@ private:
                          [&](int a, int b) { return std::pair(points_[a][axis], a) < std::pair(points_[b][axis], b); });
         sort(first, middle, (axis + 1) % 3);
         sort(middle + 1, last, (axis + 1) % 3);
+    }
+
+    template <class Hear>
+    void collect(const Vec3& x, double radius, int first, int last, int axis, const Hear& hear) const
+    {
+        if (first >= last) return;
+        const int middle = (first + last) / 2, point = order_[middle];
+        const double beyond = x[axis] - points_[point][axis];
+        if ((points_[point] - x).squaredNorm() <= radius * radius) hear(point);
+        if (beyond <= radius) collect(x, radius, first, middle, (axis + 1) % 3, hear);
+        if (beyond >= -radius) collect(x, radius, middle + 1, last, (axis + 1) % 3, hear);
     }
 
     void search(const Vec3& x, int first, int last, int axis, Best& best) const
@@ -121,9 +143,8 @@ Surface surface_of(const TriangleMesh& mesh)
 }
 
 // Radius of the largest ball within that touches each point.
-std::vector<double> ball_radii(const Surface& surface)
+std::vector<double> ball_radii(const Surface& surface, const PointTree& tree)
 {
-    const PointTree tree(surface.points);
     std::vector<double> radii(surface.points.size());
     for_each_item(int(radii.size()), [&, to = radii.data()](int k) {
         const Vec3 &x = surface.points[k], &normal = surface.normals[k];
@@ -142,15 +163,16 @@ std::vector<double> ball_radii(const Surface& surface)
     return radii;
 }
 
-// Replaces each value by what `blend` makes of it and the mean around it.
+// Replaces each value, or those that are marked, by what `blend` makes of it and the mean around it.
 template <class Value, class Blend>
-void smooth(const Surface& surface, std::vector<Value>& values, int rounds, const Blend& blend)
+void smooth(const Surface& surface, std::vector<Value>& values, int rounds, const Blend& blend,
+            const std::vector<char>* marked = nullptr)
 {
     std::vector<Value> next = values;
     for (int round = 0; round < rounds; ++round) {
         for_each_item(int(values.size()), [&, to = next.data(), from = values.data()](int k) {
             const int first = surface.begin[k], last = surface.begin[k + 1];
-            if (first == last) return;
+            if (first == last || (marked && !(*marked)[k])) return;
             Value mean = from[surface.ring[first]];
             for (int i = first + 1; i < last; ++i) mean += from[surface.ring[i]];
             to[k] = blend(from[k], Value(mean / double(last - first)));
@@ -159,17 +181,57 @@ void smooth(const Surface& surface, std::vector<Value>& values, int rounds, cons
     }
 }
 
+std::vector<char> points_that_stick_out(const Surface& surface, const PointTree& tree, const std::vector<double>& radii)
+{
+    std::vector<char> marked(radii.size());
+    for_each_item(int(radii.size()), [&, to = marked.data()](int k) {
+        double largest = 0;
+        tree.within(surface.points[k], ThinTuning::beside,
+                    [&](int other) { largest = std::max(largest, radii[other]); });
+        to[k] = radii[k] < ThinTuning::sticks_out * largest;
+    });
+    return marked;
+}
+
+// Gives marked points the values of the nearest others along the surface, and smooths those.
+template <class Value>
+void take_from_around(const Surface& surface, const std::vector<char>& marked, std::vector<Value>& values)
+{
+    std::vector<char> waits = marked;
+    std::vector<int> front;
+    for (int k = 0; k < int(values.size()); ++k)
+        if (!waits[k]) front.push_back(k);
+    while (!front.empty()) {
+        std::vector<int> next;
+        for (int k : front)
+            for (int i = surface.begin[k]; i < surface.begin[k + 1]; ++i) {
+                const int other = surface.ring[i];
+                if (!waits[other]) continue;
+                waits[other] = 0;
+                values[other] = values[k];
+                next.push_back(other);
+            }
+        front.swap(next);
+    }
+    smooth(
+        surface, values, ThinTuning::carry_rounds, [](const Value&, const Value& mean) { return mean; }, &marked);
+}
+
 }  // namespace
 
 std::vector<Vec3> thin_vertices(const TriangleMesh& mesh, double part)
 {
     const Surface surface = surface_of(mesh);
-    std::vector<double> radii = ball_radii(surface);
+    const PointTree tree(surface.points);
+    std::vector<double> radii = ball_radii(surface, tree);
+    const std::vector<char> sticks_out = points_that_stick_out(surface, tree, radii);
+    take_from_around(surface, sticks_out, radii);
     smooth(surface, radii, ThinTuning::limit_rounds,
            [](double own, double mean) { return std::min(own, ThinTuning::limit * mean); });
     smooth(surface, radii, ThinTuning::smooth_rounds, [](double own, double mean) { return 0.5 * (own + mean); });
     std::vector<Vec3> ways(radii.size());
     for (std::size_t k = 0; k < ways.size(); ++k) ways[k] = -radii[k] * surface.normals[k];
+    take_from_around(surface, sticks_out, ways);
     smooth(surface, ways, ThinTuning::smooth_rounds,
            [](const Vec3& own, const Vec3& mean) { return Vec3(0.5 * (own + mean)); });
     std::vector<Vec3> vertices = mesh.vertices;
@@ -182,7 +244,7 @@ std::vector<Body> thin_bodies(const std::vector<Body>& bodies, double part)
     std::vector<Body> thin = bodies;
     for (Body& body : thin) {
         body.motion.reset();
-        if (body.kind == Body::Kind::mesh) body.mesh.vertices = thin_vertices(body.mesh, part);
+        if (part > 0 && body.kind == Body::Kind::mesh) body.mesh.vertices = thin_vertices(body.mesh, part);
     }
     return thin;
 }

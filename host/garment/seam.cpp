@@ -92,6 +92,7 @@ void join_seams(const Pattern& pattern, const std::vector<std::vector<int>>& sid
         const OutlineSamples &a = cloth.outline[seam.side_a], &b = cloth.outline[seam.side_b];
         seam.length_a = a.length;
         seam.length_b = b.length;
+        seam.place = pattern.place(stitch_key(index));
         seam.first_pair = int(cloth.seam_pairs.size());
         for (std::size_t i = 0; i < a.vertices.size(); ++i) {
             const int first = a.vertices[i], second = b.vertices[stitch.same_direction ? i : b.vertices.size() - 1 - i];

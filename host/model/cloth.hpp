@@ -35,6 +35,7 @@ struct Seam {
     int side_a = 0, side_b = 0;  ///< Indices into Cloth::outline.
     int first_pair = 0, pair_count = 0;
     double length_a = 0, length_b = 0;  ///< [m]; unequal for a gathered seam.
+    InputPlace place = {};              ///< Of the stitch in the pattern.
 };
 
 /// A prescribed motion of pinned vertices: a rotation about an axis and a translation, both at constant speed from

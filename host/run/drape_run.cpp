@@ -372,11 +372,16 @@ RunOutcome DrapeRun::conclude_stopped()
                                 phase_->system().residual()));
 }
 
+std::string DrapeRun::open_seam_text() const
+{
+    return describe(explain(open_seam_facts(model_, *phase_, progress_.sewing.grows_from)));
+}
+
 std::string DrapeRun::why_not_done() const
 {
     const std::string unrest =
         describe(explain(unrest_facts(model_, *phase_, progress_.draping.residual, settings_.drape.tolerance)));
-    return seams_are_open() ? describe(explain(open_seam_facts(model_, *phase_))) + "\n" + unrest : unrest;
+    return seams_are_open() ? open_seam_text() + "\n" + unrest : unrest;
 }
 
 RunOutcome DrapeRun::execute()
@@ -390,8 +395,7 @@ RunOutcome DrapeRun::execute()
         progress_.ended = end == PhaseEnd::reached;
         if (end == PhaseEnd::stopped) return conclude_stopped();
         if (end == PhaseEnd::time_limit) return conclude(RunStatus::time_limit, why_not_done());
-        if (seams_are_open())
-            return conclude(RunStatus::time_limit, describe(explain(open_seam_facts(model_, *phase_))));
+        if (seams_are_open()) return conclude(RunStatus::time_limit, open_seam_text());
         const bool timed = !settings_.until.equilibrium;
         return timed ? conclude(RunStatus::finished, "") : conclude_at_rest();
     } catch (const UnstableStepError& error) {

@@ -35,6 +35,7 @@ private:
     PhaseEnd run_sewing();
     void join_seams();
     bool seams_are_open() const;
+    std::string open_seam_text() const;
     PhaseEnd run_pressing();
     EquilibriumOptions draping_options();
     PhaseEnd run_coarse();

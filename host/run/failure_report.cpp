@@ -231,6 +231,10 @@ FailureReport explain(const OpenSeamFacts& facts)
     FailureReport report;
     report.what = fmt::format("the seam of {} and {} is still open by {:.1f} mm after {:.1f} s (seams.max_time)",
                               facts.sides[0], facts.sides[1], 1000 * facts.gap, facts.time);
+    if (!facts.place.empty()) report.what = facts.place + ": " + report.what;
+    for (const OpenSeamFacts::Other& other : facts.others)
+        report.what += fmt::format("; that of {} and {} by {:.1f} mm ({})", other.sides[0], other.sides[1],
+                                   1000 * other.gap, other.place);
     const bool body_between = !facts.bodies.empty() && facts.bodies.front().distance < 0.5 * facts.gap;
     report.where =
         sentence(facts.ends[0] + " and " + facts.ends[1], body_between ? distances({facts.bodies.front()}) : "");
@@ -372,27 +376,25 @@ UnrestFacts unrest_facts(const SceneModel& model, const Phase& phase, double res
     return facts;
 }
 
-OpenSeamFacts open_seam_facts(const SceneModel& model, const Phase& phase)
+OpenSeamFacts open_seam_facts(const SceneModel& model, const Phase& phase, double time)
 {
     const Cloth& cloth = model.cloth_model.cloth;
     const std::vector<Vec3> positions = phase.positions();
-    const std::vector<double> gaps = measure_seams(cloth, positions);
-    const auto worst = std::max_element(gaps.begin(), gaps.end());
-    const Seam& seam = cloth.seams[std::size_t(worst - gaps.begin())];
-    const auto side = [&](int index) {
-        const OutlineSamples& edge = cloth.outline[index];
-        return cloth.panels[edge.panel].name + "[" + std::to_string(edge.edge) + "]";
-    };
-    OpenSeamFacts facts{.time = phase.system().clock().time,
-                        .sides = {side(seam.side_a), side(seam.side_b)},
-                        .lengths = {seam.length_a, seam.length_b},
-                        .gap = *worst};
-    const auto first = cloth.seam_pairs.begin() + seam.first_pair;
-    const auto distance = [&](const std::array<int, 2>& pair) {
-        return (positions[pair[0]] - positions[pair[1]]).norm();
-    };
-    const auto pair = *std::max_element(first, first + seam.pair_count,
-                                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    const std::vector<OpenSeam> open = open_seams(cloth, positions);
+    OpenSeamFacts facts;
+    facts.time = time;
+    if (open.empty()) return facts;
+    const Seam& seam = cloth.seams[open.front().seam];
+    const std::array<std::string, 2> sides = seam_sides(cloth, open.front().seam);
+    std::copy(sides.begin(), sides.end(), facts.sides);
+    facts.lengths[0] = seam.length_a;
+    facts.lengths[1] = seam.length_b;
+    facts.gap = open.front().gap;
+    facts.place = describe(seam.place);
+    for (std::size_t k = 1; k < open.size(); ++k)
+        facts.others.push_back(
+            {seam_sides(cloth, open[k].seam), open[k].gap, describe(cloth.seams[open[k].seam].place)});
+    const std::array<int, 2>& pair = cloth.seam_pairs[open.front().pair];
     for (int k = 0; k < 2; ++k) facts.ends[k] = describe_vertex(cloth, pair[k], positions[pair[k]]);
     facts.bodies = bodies_seen_from(model.cloth_model, 0, 0.5 * (positions[pair[0]] + positions[pair[1]]));
     return facts;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,14 +69,22 @@ struct UnrestFacts {
 
 FailureReport explain(const UnrestFacts& facts);
 
-/// What is known of the seam that is open most when sewing has run out of time.
+/// What is known of the seams that have not closed, above all of the one that is open most.
 struct OpenSeamFacts {
-    double time = 0;                  ///< [s]
+    double time = 0;                  ///< At which they were given up [s].
     std::string sides[2] = {};        ///< Panel and edge of both.
     double lengths[2] = {0, 0};       ///< [m]
     std::string ends[2] = {};         ///< The vertices of the pair that is furthest apart.
     double gap = 0;                   ///< Between them [m].
     std::vector<BodyAt> bodies = {};  ///< As seen from half-way between them, the nearest first.
+    std::string place = {};           ///< Of the stitch in the pattern.
+    /// A seam that is open less.
+    struct Other {
+        std::array<std::string, 2> sides;  ///< Panel and edge.
+        double gap = 0;                    ///< [m]
+        std::string place;                 ///< Of the stitch in the pattern.
+    };
+    std::vector<Other> others = {};
 };
 
 FailureReport explain(const OpenSeamFacts& facts);
@@ -84,6 +93,7 @@ FailureReport explain(const OpenSeamFacts& facts);
 DivergenceFacts divergence_facts(const SceneModel& model, const Phase& phase, const std::string& stage,
                                  const StepFailure& failure, const IntegratorInfo& integrator);
 UnrestFacts unrest_facts(const SceneModel& model, const Phase& phase, double residual, double asked);
-OpenSeamFacts open_seam_facts(const SceneModel& model, const Phase& phase);
+/// @param time  at which the seams were given up [s]
+OpenSeamFacts open_seam_facts(const SceneModel& model, const Phase& phase, double time);
 
 }  // namespace selvage

@@ -28,8 +28,11 @@ GarmentSewing::GarmentSewing(const SceneModel& model, const ClothSettings& setti
                                                          profile, phase,           std::move(remade)}
 {
     const TraceScope scope("thin_bodies");
-    thin_ = thin_bodies(whole_, options_.thin);
-    if (progress_.welded.empty()) progress_.welded = coinciding_pairs(model_.cloth);
+    if (progress_.welded.empty()) {
+        progress_.welded = coinciding_pairs(model_.cloth);
+        progress_.on_thin = options_.thin_at_once && options_.thin > 0;
+    }
+    thin_ = thin_bodies(whole_, progress_.on_thin ? options_.thin : 0);
     meet(thin_);
 }
 
@@ -42,30 +45,41 @@ void GarmentSewing::meet(std::vector<Body> bodies)
     cloth_.query = &*query_;
 }
 
-void GarmentSewing::grow_from(double start)
+// Puts the cloth as it is among other bodies.
+void GarmentSewing::go_on_among(std::vector<Body> bodies)
 {
-    if (options_.thin > 0) meet(growing_bodies(thin_, whole_, start, growing_time));
+    const std::vector<Vec3> positions = cloth_.phase->positions(), velocities = cloth_.phase->velocities();
+    const Clock clock = cloth_.phase->system().clock();
+    progress_.steps = {};
+    meet(std::move(bodies));
+    remake_phase(cloth_, options_, progress_, positions, velocities, clock);
 }
 
 void GarmentSewing::start()
 {
-    if (progress_.grows_from >= 0) grow_from(progress_.grows_from);
+    if (progress_.on_thin && progress_.grows_from >= 0)
+        meet(growing_bodies(thin_, whole_, progress_.grows_from, growing_time));
     remake_phase(cloth_, options_, progress_, model_.cloth.positions, {}, {});
 }
 
 PhaseEnd GarmentSewing::run(const AfterStep& after_step)
 {
     if (progress_.grows_from < 0) {
-        const PhaseEnd end = close_seams(cloth_, options_, progress_, after_step);
+        PhaseEnd end = close_seams(cloth_, options_, progress_, after_step);
+        if (end == PhaseEnd::time_limit && options_.thin > 0 && !progress_.on_thin) {
+            progress_.on_thin = true;
+            progress_.failures = progress_.harder = progress_.looks_in_vain = 0;
+            thin_ = thin_bodies(whole_, options_.thin);
+            go_on_among(thin_);
+            end = close_seams(cloth_, options_, progress_, after_step);
+        }
         if (end == PhaseEnd::stopped) return end;
-        const std::vector<Vec3> positions = cloth_.phase->positions(), velocities = cloth_.phase->velocities();
-        const Clock clock = cloth_.phase->system().clock();
-        progress_.grows_from = clock.time;
-        progress_.steps = {};
-        grow_from(clock.time);
-        remake_phase(cloth_, options_, progress_, positions, velocities, clock);
+        progress_.grows_from = cloth_.phase->system().clock().time;
+        if (progress_.on_thin) go_on_among(growing_bodies(thin_, whole_, progress_.grows_from, growing_time));
     }
-    return let_bodies_grow(cloth_, options_, progress_, after_step);
+    const PhaseEnd end = let_bodies_grow(cloth_, options_, progress_, after_step);
+    // Where cloth is in the way of a body, draping lets it out of it.
+    return end == PhaseEnd::stopped ? end : PhaseEnd::reached;
 }
 
 }  // namespace selvage

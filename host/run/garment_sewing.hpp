@@ -28,7 +28,7 @@ public:
 
 private:
     void meet(std::vector<Body> bodies);
-    void grow_from(double start);
+    void go_on_among(std::vector<Body> bodies);
 
     const SewingOptions& options_;
     SewingProgress& progress_;

@@ -113,16 +113,29 @@ std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<V
     return measures;
 }
 
-std::vector<double> measure_seams(const Cloth& cloth, const std::vector<Vec3>& positions)
+std::vector<OpenSeam> open_seams(const Cloth& cloth, const std::vector<Vec3>& positions)
 {
-    std::vector<double> gaps;
-    for (const Seam& seam : cloth.seams) {
-        double gap = 0;
-        for (int k = seam.first_pair; k < seam.first_pair + seam.pair_count; ++k)
-            gap = std::max(gap, (positions[cloth.seam_pairs[k][0]] - positions[cloth.seam_pairs[k][1]]).norm());
-        gaps.push_back(gap);
+    std::vector<OpenSeam> open;
+    for (int s = 0; s < int(cloth.seams.size()); ++s) {
+        const Seam& seam = cloth.seams[s];
+        OpenSeam widest{.seam = s};
+        for (int k = seam.first_pair; k < seam.first_pair + seam.pair_count; ++k) {
+            const double gap = (positions[cloth.seam_pairs[k][0]] - positions[cloth.seam_pairs[k][1]]).norm();
+            if (gap > widest.gap) widest = {s, k, gap};
+        }
+        if (widest.gap > 0) open.push_back(widest);
     }
-    return gaps;
+    std::stable_sort(open.begin(), open.end(), [](const OpenSeam& a, const OpenSeam& b) { return a.gap > b.gap; });
+    return open;
+}
+
+std::array<std::string, 2> seam_sides(const Cloth& cloth, int seam)
+{
+    const auto side = [&](int index) {
+        const OutlineSamples& edge = cloth.outline[index];
+        return cloth.panels[edge.panel].name + "[" + std::to_string(edge.edge) + "]";
+    };
+    return {side(cloth.seams[seam].side_a), side(cloth.seams[seam].side_b)};
 }
 
 double measure_seam_gap(const Cloth& cloth, const std::vector<Vec3>& positions)

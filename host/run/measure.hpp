@@ -46,8 +46,18 @@ std::vector<PanelMeasure> measure_panels(const Cloth& cloth, const std::vector<V
 /// Largest distance of a sewn pair [m].
 double measure_seam_gap(const Cloth& cloth, const std::vector<Vec3>& positions);
 
-/// The gap of each seam: largest distance among its pairs [m].
-std::vector<double> measure_seams(const Cloth& cloth, const std::vector<Vec3>& positions);
+/// A seam whose sides are apart.
+struct OpenSeam {
+    int seam = 0;    ///< Of Cloth::seams.
+    int pair = 0;    ///< Of Cloth::seam_pairs: the one that is furthest apart.
+    double gap = 0;  ///< Between its vertices [m].
+};
+
+/// The seams that are not closed, the widest first.
+std::vector<OpenSeam> open_seams(const Cloth& cloth, const std::vector<Vec3>& positions);
+
+/// The sides of a seam, as `front[3]`: panel and edge.
+std::array<std::string, 2> seam_sides(const Cloth& cloth, int seam);
 
 /// The (weft, warp) coordinates of the corners of every outward face in its own panel, in single precision [m].
 std::vector<std::array<Vec2, 3>> rest_corners(const Cloth& cloth);

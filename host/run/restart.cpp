@@ -70,13 +70,15 @@ template <class Progress, class Visit>
 void visit_sewing(Progress& sewing, const Visit& visit)
 {
     // Which pairs are welded is not always there.
-    auto& [welded, steps_since_look, harder, looks_in_vain, open_way, grows_from, settled_steps, elastic_energy,
-           energy_change, steps] = sewing;
+    auto& [welded, steps_since_look, harder, looks_in_vain, open_way, on_thin, grows_from, failures, settled_steps,
+           elastic_energy, energy_change, steps] = sewing;
     visit("sewing.steps_since_look", steps_since_look);
     visit("sewing.harder", harder);
     visit("sewing.looks_in_vain", looks_in_vain);
     visit("sewing.open_way", open_way);
+    visit("sewing.on_thin", on_thin);
     visit("sewing.grows_from", grows_from);
+    visit("sewing.failures", failures);
     visit("sewing.settled_steps", settled_steps);
     visit("sewing.elastic_energy", elastic_energy);
     visit("sewing.energy_change", energy_change);

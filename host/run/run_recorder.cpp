@@ -67,6 +67,10 @@ void add_measures(RunSummary& s, const Cloth& cloth, const Phase& phase, const s
     }
     s.seam_count = int(cloth.seams.size());
     if (!cloth.seams.empty()) s.seam_max_gap = measure_seam_gap(cloth, positions);
+    for (const OpenSeam& open : open_seams(cloth, positions)) {
+        const auto [one, other] = seam_sides(cloth, open.seam);
+        s.open_seams.push_back({{one, other}, describe(cloth.seams[open.seam].place), open.gap});
+    }
     for (const PanelMeasure& p : measure_panels(cloth, positions))
         s.panels.push_back({p.name, p.area_error, p.boundary_error});
 }

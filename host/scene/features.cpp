@@ -305,7 +305,12 @@ std::string picture(const FeatureCase& with, Params&)
 
 std::string coarse_start(const FeatureCase& with, Params&) { return why_no_coarse_start(with.scene, with.model); }
 
-std::string thin_bodies(const FeatureCase& with, Params&) { return why_no_thin_bodies(with.scene, with.model); }
+std::string thin_bodies(const FeatureCase& with, Params&)
+{
+    const std::string reason = why_no_thin_bodies(with.scene, with.model);
+    if (!reason.empty() || with.model.body_between) return reason;
+    return "no body stands between the sides of a seam; they become thin where one does not close";
+}
 
 std::string sew(const FeatureCase& with, Params&) { return with.model.sews ? on : "there are no seams"; }
 
@@ -396,7 +401,6 @@ std::string why_no_thin_bodies(const Scene& scene, const SceneModel& model)
     if (!scene.contact.body) return "contact.body is false";
     if (std::none_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.kind == Body::Kind::mesh; }))
         return "no body is a mesh";
-    if (!model.body_between) return "no body stands between the sides of a seam";
     return scene.seams.thin == 0 ? "seams.thin is 0" : on;
 }
 

@@ -36,7 +36,7 @@ bool is_kernel(std::string_view feature);
 /// Why a feature is off; empty: it is on. @param params  those of the case's phase
 std::string why_off(const FeatureCase& with, std::string_view feature, const Params& params);
 
-/// Why bodies are not made thin while a garment is sewn; empty: they are.
+/// Why bodies are not made thin while a garment is sewn; empty: they are, where that is needed.
 std::string why_no_thin_bodies(const Scene& scene, const SceneModel& model);
 
 /// The parameters of every term and velocity filter in one phase of a scene; a strength of zero leaves a term out.

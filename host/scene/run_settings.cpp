@@ -43,6 +43,8 @@ ClothSettings cloth_settings(const Scene& scene, const SceneModel& model)
     settings.sew.max_time = scene.seams.max_time;
     settings.sew.first_stiffness = settings.sewing.params.seam.stiffness;
     settings.sew.first_limit = settings.sewing.params.seam.force_limit;
+    settings.sew.edge_length = model.edge_length;
+    settings.sew.thin_at_once = model.body_between;
     settings.sew.thin = why_no_thin_bodies(scene, model).empty() ? scene.seams.thin : 0;
     return settings;
 }

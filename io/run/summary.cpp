@@ -87,6 +87,10 @@ void add_state(Json& json, const RunSummary& summary)
                     {"intersections", count(summary.body_intersections)}};
     json["self"] = Json::object({{"intersections", count(summary.self_intersections)}});
     json["seams"] = {{"count", count(summary.seam_count)}, {"max_gap_m", number(summary.seam_max_gap)}};
+    json["seams"]["open"] = Json::array();
+    for (const RunSummary::SeamGap& seam : summary.open_seams)
+        json["seams"]["open"].push_back(
+            {{"sides", {seam.sides[0], seam.sides[1]}}, {"place", seam.place}, {"gap_m", number(seam.gap)}});
     json["panels"] = panels_json(summary);
 }
 

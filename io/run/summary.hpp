@@ -107,6 +107,12 @@ struct RunSummary {
     std::int64_t self_intersections = -1, body_intersections = -1;  ///< Pairs of triangles in the last frame.
     int seam_count = -1;
     double seam_max_gap = unknown;  ///< [m]
+    struct SeamGap {
+        std::string sides[2];  ///< Panel and edge.
+        std::string place;     ///< Of the stitch in the pattern.
+        double gap = 0;        ///< [m]
+    };
+    std::vector<SeamGap> open_seams;  ///< In the last frame, the widest first.
     std::vector<PanelFit> panels;
 };
 

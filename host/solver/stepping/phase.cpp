@@ -19,8 +19,7 @@ constexpr double lift_of_edge = 0.5;  // how much further off a body what it pie
 Topology phase_topology(const ClothModel& model, const PhaseOptions& options)
 {
     const TraceScope scope("topology");
-    Topology topology =
-        options.joined ? make_topology(model.cloth, true) : make_topology(model.cloth, options.welded);
+    Topology topology = options.joined ? make_topology(model.cloth, true) : make_topology(model.cloth, options.welded);
     add_springs(topology, model.cloth, model.fabrics, springs_of(options.params));
     return topology;
 }

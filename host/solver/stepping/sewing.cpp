@@ -18,7 +18,14 @@ struct SewingTuning {
     static constexpr double stiffness_growth = 2;  // factor of the seam's stiffness when it is pulled harder
     static constexpr double limit_growth = 1.5;    // factor of the seam's force limit at the same time
     static constexpr int hardest = 10;             // times that it may be
+    static constexpr int hardest_on_whole = 4;     // times, before bodies that can be thin are made so
     static constexpr int patience = 8;             // looks without headway at the hardest pull: given up
+    // What stays a little apart at a stronger pull is welded as well: pairs in folds, next to those that are welded.
+    static constexpr double reach_growth =
+        0.5;  // of the gap that is welded, for each time that seams are pulled harder
+    static constexpr double reach_of_edge = 0.3;   // of an edge length: that gap at most, unless the scene says more
+    static constexpr int most_failures = 6;        // steps without success that sewing survives
+    static constexpr double shortest_step = 0.05;  // of the scene's: shorter ones mean that things jam
     static constexpr int most_settling = 8;        // steps on bodies that have their size
     static constexpr double press_bending = 100;   // times the fabric's bending rigidity: laps at seams fold open
     static constexpr int press_steps = 20;         // of pressing
@@ -101,12 +108,14 @@ public:
         progress_.steps_since_look = 0;
         const std::vector<Vec3> positions = cloth_.phase->positions();
         const auto& pairs = cloth_.model.cloth.seam_pairs;
+        const double most = std::max(options_.closed, SewingTuning::reach_of_edge * options_.edge_length);
+        const double reach = std::min(most, options_.closed * (1 + SewingTuning::reach_growth * progress_.harder));
         double open_way = 0;
         int closed = 0;
         for (std::size_t k = 0; k < pairs.size(); ++k) {
             if (progress_.welded[k]) continue;
             const double gap = (positions[pairs[k][0]] - positions[pairs[k][1]]).norm();
-            progress_.welded[k] = gap <= options_.closed;
+            progress_.welded[k] = gap <= reach;
             closed += progress_.welded[k];
             open_way += progress_.welded[k] ? 0 : gap;
         }
@@ -118,10 +127,27 @@ public:
         renew();
     }
 
+    // Begins again at rest and with the first pull where a step has failed: whatever crosses by now is let go.
+    void recover()
+    {
+        ++progress_.failures;
+        progress_.harder = 0;
+        progress_.steps = {};
+        const Clock clock = cloth_.phase->system().clock();
+        remake_phase(cloth_, options_, progress_, cloth_.phase->positions(), {}, clock);
+        renew();
+    }
+
     // Returns whether the run goes on.
     bool step()
     {
-        control_->advance(options_.step, newton_, false);
+        try {
+            control_->advance(options_.step, newton_, false);
+        } catch (const StepFailureError&) {
+            if (progress_.failures >= SewingTuning::most_failures) throw;
+            recover();
+            return true;
+        }
         progress_.steps = control_->memory();
         ++progress_.steps_since_look;
         const System& system = cloth_.phase->system();
@@ -138,8 +164,10 @@ private:
     {
         control_.reset();
         euler_ = make_integrator("implicit_euler", *cloth_.phase);
-        control_.emplace(*cloth_.phase, *euler_, StepOptions{.longest = options_.step, .moves_boundary = true},
-                         progress_.steps);
+        control_.emplace(
+            *cloth_.phase, *euler_,
+            StepOptions{.longest = options_.step, .least = SewingTuning::shortest_step, .moves_boundary = true},
+            progress_.steps);
     }
 
     void change_pull(bool welds, bool headway)
@@ -172,8 +200,11 @@ PhaseEnd close_seams(SewnCloth& cloth, const SewingOptions& options, SewingProgr
     for (;;) {
         sewing.look();
         if (all_welded(progress.welded)) return PhaseEnd::reached;
-        if (sewing.time() >= options.max_time || progress.looks_in_vain >= SewingTuning::patience)
-            return PhaseEnd::time_limit;
+        const bool can_be_thinner = options.thin > 0 && !progress.on_thin;
+        const bool in_vain = can_be_thinner ? progress.failures > 0 || progress.harder > SewingTuning::hardest_on_whole
+                                            : progress.failures >= SewingTuning::most_failures ||
+                                                  progress.looks_in_vain >= SewingTuning::patience;
+        if (in_vain || sewing.time() >= options.max_time) return PhaseEnd::time_limit;
         if (!sewing.step()) return PhaseEnd::stopped;
     }
 }
@@ -190,7 +221,9 @@ PhaseEnd let_bodies_grow(SewnCloth& cloth, const SewingOptions& options, SewingP
     while (!grown() || !settled()) {
         sewing.look();
         if (grown()) ++progress.settled_steps;
+        const int failures = progress.failures;
         if (!sewing.step()) return PhaseEnd::stopped;
+        if (progress.failures > failures) return PhaseEnd::time_limit;
     }
     return PhaseEnd::reached;
 }

@@ -13,7 +13,9 @@ struct SewingOptions {
     double max_time = 20;            ///< After which seams that are still open are given up [s].
     double first_stiffness = 0;      ///< Seam stiffness at the start of sewing [N/m].
     double first_limit = 0;          ///< Seam force limit then [N].
-    double thin = 0;                 ///< Part of their thickness by which bodies are thin meanwhile [1].
+    double edge_length = 0.02;       ///< Of a typical edge [m].
+    double thin = 0;                 ///< Part of their thickness by which bodies can be thin meanwhile [1].
+    bool thin_at_once = false;       ///< They are from the start; else only if seams do not close on the whole ones.
 };
 
 /// Where sewing stands; kept in checkpoints.
@@ -23,7 +25,9 @@ struct SewingProgress {
     int harder = 0;             ///< How many times seams are pulled harder than at first.
     int looks_in_vain = 0;      ///< Looks one after the other at the hardest pull that found no headway.
     double open_way = 1e30;     ///< Sum of all gaps at the last look [m].
+    bool on_thin = false;       ///< Bodies are thin.
     double grows_from = -1;     ///< When bodies began to grow back [s]; below 0: seams are being closed.
+    int failures = 0;           ///< Steps that did not succeed at any length.
     int settled_steps = 0;      ///< Steps since bodies have their size.
     double elastic_energy = 0;  ///< After the last step [J].
     double energy_change = 1;   ///< Relative, of the last step [1].
@@ -67,7 +71,8 @@ PhaseEnd close_seams(SewnCloth& cloth, const SewingOptions& options, SewingProgr
                      const AfterStep& after_step);
 
 /// Goes on while bodies move by themselves to what they are without sewing, and until the cloth has settled on them.
-/// Seams that are open still are pulled and welded. @returns reached, or stopped
+/// Seams that are open still are pulled and welded.
+/// @returns reached; stopped; time_limit: cloth is in the way of the bodies
 PhaseEnd let_bodies_grow(SewnCloth& cloth, const SewingOptions& options, SewingProgress& progress,
                          const AfterStep& after_step);
 

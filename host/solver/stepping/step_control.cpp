@@ -13,8 +13,7 @@ namespace selvage {
 namespace {
 
 constexpr double stability_margin = 0.9;
-constexpr double least_fraction = 1.0 / 1024;  // of the longest step: below it a run has diverged
-constexpr double most_gain = 0.25;             // of the energy that has moved so far: more comes from nowhere
+constexpr double most_gain = 0.25;  // of the energy that has moved so far: more comes from nowhere
 
 }  // namespace
 
@@ -181,7 +180,7 @@ StepControl::Cover StepControl::start(double room)
 {
     keep(system_, &integrator_, start_);
     looked_from_ = start_.fields.pos;
-    floor_ = least_fraction * std::min(options_.longest, integrator_.stable_step());
+    floor_ = options_.least * std::min(options_.longest, integrator_.stable_step());
     if (moves_) room = system_.longest_step(room);
     Cover cover{.begin = system_.clock().time, .length = fills() ? std::min(options_.longest, room) : room};
     if (integrator_.may_gain_energy()) {

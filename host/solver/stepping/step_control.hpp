@@ -37,6 +37,7 @@ struct StepOptions {
     bool adaptive = false;  ///< Steps follow the integrator's estimate of its error, if it has one.
     double error = 1e-4;    ///< Error of one step that adaptive steps allow [m].
     UnstableStep unstable = UnstableStep::shrink;  ///< A step above an explicit scheme's stability limit.
+    double least = 1.0 / 1024;                     ///< Part of the longest step: below it a run has diverged [1].
     bool moves_boundary = false;  ///< Bodies and held vertices move with the clock; otherwise they stand still.
 };
 
