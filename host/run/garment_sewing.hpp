@@ -28,6 +28,7 @@ public:
 
 private:
     void meet(std::vector<Body> bodies);
+    std::vector<Body> growing();
     void go_on_among(std::vector<Body> bodies);
 
     const SewingOptions& options_;

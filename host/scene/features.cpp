@@ -166,21 +166,14 @@ std::string seam(const FeatureCase& with, Params& params)
 
 // Contact: exactly one law gets a strength ----------------------------------------------
 
-// How many times stiffer contact is while a garment is sewn. Seams and bodies that grow press cloth on bodies far
-// harder than its weight does: at 1 tight cloth lay so near to them that they could only grow in tiny steps (a tee that
-// has to stretch by 20 % took 22 s, at 10 and at 100 it took 4 s).
-constexpr double contact_while_sewing = 30;
-
 // At the heaviest fabric where no body is fast; other places have it in proportion. See local_hardness.
-double stiffness_of_contact(const FeatureCase& with)
+double stiffness_of_contact(const Scene& scene, const SceneModel& model)
 {
-    const double times = with.sewing ? contact_while_sewing : 1;
-    if (!std::isnan(with.scene.contact.stiffness)) return times * with.scene.contact.stiffness;
+    if (!std::isnan(scene.contact.stiffness)) return scene.contact.stiffness;
     double heaviest = 0;
-    for (const auto& [name, fabric] : with.model.cloth_model.fabrics)
-        heaviest = std::max(heaviest, fabric.areal_density);
-    const double gravity = with.scene.solver.gravity.norm();
-    return times * 100 * heaviest * (gravity > 0 ? gravity : 9.81);
+    for (const auto& [name, fabric] : model.cloth_model.fabrics) heaviest = std::max(heaviest, fabric.areal_density);
+    const double gravity = scene.solver.gravity.norm();
+    return 100 * heaviest * (gravity > 0 ? gravity : 9.81);
 }
 
 std::string response_in_place(const Scene& scene) { return "contact.response is " + text_of(scene.contact.response); }
@@ -216,7 +209,7 @@ std::string why_no_cloth_law(const FeatureCase& with, ContactResponse law)
 std::string body_contact(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_body_law(with, ContactResponse::barrier); !reason.empty()) return reason;
-    params.body_contact.stiffness = stiffness_of_contact(with);
+    params.body_contact.stiffness = stiffness_of_contact(with.scene, with.model);
     params.body_contact.gap = with.scene.contact.gap;
     return on;
 }
@@ -224,7 +217,7 @@ std::string body_contact(const FeatureCase& with, Params& params)
 std::string body_repulsion(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_body_law(with, ContactResponse::exponential); !reason.empty()) return reason;
-    params.body_repulsion.stiffness = stiffness_of_contact(with);
+    params.body_repulsion.stiffness = stiffness_of_contact(with.scene, with.model);
     params.body_repulsion.gap = with.scene.contact.gap;
     return on;
 }
@@ -232,7 +225,7 @@ std::string body_repulsion(const FeatureCase& with, Params& params)
 std::string cloth_contact(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_cloth_law(with, ContactResponse::barrier); !reason.empty()) return reason;
-    params.cloth_contact.stiffness = stiffness_of_contact(with);
+    params.cloth_contact.stiffness = stiffness_of_contact(with.scene, with.model);
     params.cloth_contact.gap = with.scene.contact.gap;
     return on;
 }
@@ -240,7 +233,7 @@ std::string cloth_contact(const FeatureCase& with, Params& params)
 std::string cloth_repulsion(const FeatureCase& with, Params& params)
 {
     if (const std::string reason = why_no_cloth_law(with, ContactResponse::exponential); !reason.empty()) return reason;
-    params.cloth_repulsion.stiffness = stiffness_of_contact(with);
+    params.cloth_repulsion.stiffness = stiffness_of_contact(with.scene, with.model);
     params.cloth_repulsion.gap = with.scene.contact.gap;
     return on;
 }

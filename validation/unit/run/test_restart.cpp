@@ -31,13 +31,13 @@ struct Run {
     }
 };
 
-RunIdentity some_identity() { return {{{"solver.step", "0.02"}, {"solver.until", "2"}}, "0123", {}, 50}; }
+RunIdentity some_identity() { return {{{"solver.step", "0.02"}, {"solver.until", "2"}}, "0123", {}, 50, 3}; }
 
 RunProgress some_progress()
 {
     RunProgress p;
     p.stage = RunStage::drape;
-    p.sewing = {0.2, 3, 0.4, 0.5, 0.6, {0.7}};
+    p.sewing = {{1, 0, 1}, 3, 4, 5, 0.2, true, 0.3, 6, 7, 0.4, 0.5, {0.7}};
     p.pressing = {8, {0.9}};
     p.draping = {1.2, 13, 1.4, {1.5, 1, 1.6, 1.7, 1.8}, 16, 0};
     p.counters = {17,
