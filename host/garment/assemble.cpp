@@ -120,8 +120,16 @@ std::vector<int> add_panel(Cloth& cloth, const PatternPanel& panel, const Meshed
                            const std::vector<double>& lengths, const std::string& fabric)
 {
     const int first_vertex = int(cloth.positions.size());
-    cloth.panels.push_back({panel.name, fabric, first_vertex, int(meshed.mesh.vertices.size()), int(cloth.faces.size()),
-                            int(meshed.mesh.faces.size()), meshed.area, meshed.boundary, meshed.clockwise});
+    cloth.panels.push_back({panel.name,
+                            fabric,
+                            first_vertex,
+                            int(meshed.mesh.vertices.size()),
+                            int(cloth.faces.size()),
+                            int(meshed.mesh.faces.size()),
+                            meshed.area,
+                            meshed.boundary,
+                            meshed.clockwise,
+                            {}});
     for (const Vec2& point : meshed.mesh.vertices) {
         cloth.panel_coordinates.push_back(point);
         cloth.positions.push_back(place_on_panel(panel, point));
