@@ -43,6 +43,9 @@ PhaseOptions phase_options(const Scene& scene, const SceneModel& model, bool sew
 /// Precision of the linear solves: solver.precision, or what this cloth needs.
 PrecisionChoice solve_precision(const Scene& scene, const ClothModel& model);
 
+/// What steps of a motion may leave to find, over gravity: solver.step_tolerance, or what this cloth affords [1].
+double step_tolerance(const Scene& scene, const ClothModel& model);
+
 /// The integrator that moves the cloth while it drapes: solver.integrator, or what `bench work-precision` finds best:
 /// bdf2 for motions without bodies, implicit_euler with them; on the way to rest static where the way does not matter
 /// (no bodies and so no friction, no hysteresis), implicit_euler elsewhere.

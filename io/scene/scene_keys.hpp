@@ -145,8 +145,9 @@
     KEY(bool, adaptive, false, "1", 0, 1,                                                                             \
         "steps, of at most solver.step, follow the integrator's estimate of its error")                               \
     KEY(double, step_error, 1e-4, "m", 1e-12, 1, "error of one step that adaptive steps allow")                       \
-    KEY(double, step_tolerance, 1e-2, "1", 1e-6, 1,                                                                   \
-        "motion until a time: acceleration, over gravity, that implicit steps may leave to find")                     \
+    KEY(double, step_tolerance, automatic, "1", 1e-6, 1,                                                              \
+        "motion until a time: acceleration, over gravity, that implicit steps may leave to find; automatic: 0.1 for " \
+        "limp cloth on bodies, 0.01 elsewhere")                                                                       \
     KEY(double, tolerance, 1e-3, "1", 1e-9, 1, "equilibrium: net force over gravity force on free vertices")          \
     KEY(double, energy_tolerance, 1e-4, "1", 0, 1,                                                                    \
         "sewing: relative change of elastic energy between steps at which it may stop")                               \
