@@ -14,7 +14,8 @@ namespace {
 // 39 patterns of others; not measured one by one.
 struct SewingTuning {
     static constexpr int steps_between_looks = 5;  // at pairs that have come close: making a phase costs some steps
-    static constexpr double headway = 0.95;        // factor by which the gaps must shrink between looks
+    static constexpr double fast = 0.6;     // factor by which the gaps shrink between looks that need no such pull
+    static constexpr double headway = 0.8;  // factor by which the gaps must shrink between looks
     static constexpr double stiffness_growth = 2;  // factor of the seam's stiffness when it is pulled harder
     static constexpr double limit_growth = 1.5;    // factor of the seam's force limit at the same time
     static constexpr int hardest = 10;             // times that it may be
@@ -111,17 +112,17 @@ public:
         const double most = std::max(options_.closed, SewingTuning::reach_of_edge * options_.edge_length);
         const double reach = std::min(most, options_.closed * (1 + SewingTuning::reach_growth * progress_.harder));
         double open_way = 0;
-        int closed = 0;
+        bool closed = false;
         for (std::size_t k = 0; k < pairs.size(); ++k) {
             if (progress_.welded[k]) continue;
             const double gap = (positions[pairs[k][0]] - positions[pairs[k][1]]).norm();
             progress_.welded[k] = gap <= reach;
-            closed += progress_.welded[k];
+            closed = closed || progress_.welded[k];
             open_way += progress_.welded[k] ? 0 : gap;
         }
-        change_pull(closed > 0, open_way < SewingTuning::headway * progress_.open_way);
+        change_pull(open_way / progress_.open_way);
         progress_.open_way = open_way;
-        if (closed == 0) return;
+        if (!closed) return;
         remake_phase(cloth_, options_, progress_, positions, cloth_.phase->velocities(),
                      cloth_.phase->system().clock());
         renew();
@@ -170,12 +171,13 @@ private:
             progress_.steps);
     }
 
-    void change_pull(bool welds, bool headway)
+    // @param part  of the sum of all gaps that is left since the last look
+    void change_pull(double part)
     {
-        if (welds) {
+        if (part < SewingTuning::fast) {
             progress_.harder = std::max(progress_.harder - 1, 0);
             progress_.looks_in_vain = 0;
-        } else if (!headway) {
+        } else if (part > SewingTuning::headway) {
             if (progress_.harder == SewingTuning::hardest) ++progress_.looks_in_vain;
             progress_.harder = std::min(progress_.harder + 1, SewingTuning::hardest);
         }
