@@ -63,7 +63,8 @@ void DrapeRun::start_phase(RunStage stage, const std::vector<Vec3>& positions, c
     sewing_.reset();
     if (stage == RunStage::sew) {
         const auto renew = [this] { integrator_ = make_integrator(word_of(settings_.integrator), *phase_); };
-        sewing_.emplace(model_, settings_.cloth, progress_.sewing, profile_, phase_, renew);
+        sewing_.emplace(model_, settings_.cloth, progress_.sewing, profile_, phase_, renew,
+                        [this] { return must_stop(); });
         sewing_->start();
         return;
     }

@@ -27,10 +27,11 @@ ClothModel model_of_sewing(const ClothModel& model)
 }  // namespace
 
 GarmentSewing::GarmentSewing(const SceneModel& model, const ClothSettings& settings, SewingProgress& progress,
-                             Profile& profile, std::unique_ptr<Phase>& phase, std::function<void()> remade)
+                             Profile& profile, std::unique_ptr<Phase>& phase, std::function<void()> remade,
+                             std::function<bool()> stop)
     : options_(settings.sew), progress_(progress), whole_(model.cloth_model.bodies),
-      model_(model_of_sewing(model.cloth_model)), cloth_{model_,  settings.sewing, nullptr,
-                                                         profile, phase,           std::move(remade)}
+      model_(model_of_sewing(model.cloth_model)), cloth_{model_, settings.sewing,   nullptr,        profile,
+                                                         phase,  std::move(remade), std::move(stop)}
 {
     const TraceScope scope("thin_bodies");
     if (progress_.welded.empty()) {

@@ -14,10 +14,10 @@ namespace selvage {
 class GarmentSewing {
 public:
     /// @param progress  where sewing stands, of a resumed run as well   @param phase  is made here, again and again
-    /// @param remade    called whenever the phase is another one
+    /// @param remade    called whenever the phase is another one   @param stop  asked within steps
     /// All references must outlive this object.
     GarmentSewing(const SceneModel& model, const ClothSettings& settings, SewingProgress& progress, Profile& profile,
-                  std::unique_ptr<Phase>& phase, std::function<void()> remade);
+                  std::unique_ptr<Phase>& phase, std::function<void()> remade, std::function<bool()> stop);
 
     /// Makes the phase as it is at the start of sewing, or what a checkpoint is to be put into.
     void start();

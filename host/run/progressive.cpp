@@ -49,13 +49,14 @@ struct Stage {
 };
 
 // Sews a garment at this stage and presses its seams.
-PhaseEnd sew_stage(Stage& stage, Profile& profile, const AfterStep& after_step)
+PhaseEnd sew_stage(Stage& stage, Profile& profile, const AfterStep& after_step, const std::function<bool()>& stop)
 {
     SewingProgress progress;
     PhaseEnd end = PhaseEnd::reached;
     std::vector<Vec3> positions;
     {
-        GarmentSewing sewing(stage.model, stage.settings, progress, profile, stage.phase, [] {});
+        GarmentSewing sewing(
+            stage.model, stage.settings, progress, profile, stage.phase, [] {}, stop);
         sewing.start();
         end = sewing.run(after_step);
         positions = stage.phase->positions();
@@ -83,7 +84,7 @@ bool drape_stage(Stage& stage, bool sews, const std::vector<Vec3>& positions, co
     try {
         PhaseEnd end = PhaseEnd::reached;
         if (sews)
-            end = sew_stage(stage, profile, hear);
+            end = sew_stage(stage, profile, hear, options.stop);
         else
             stage.start(stage.settings.draping, positions, profile);
         if (end == PhaseEnd::reached) {

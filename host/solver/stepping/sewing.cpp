@@ -97,9 +97,11 @@ public:
     {
         newton_.max_iterations = 3;  // on the way to a closed seam accuracy in time is worth nothing
         newton_.tolerance = 1e-2;
+        newton_.stop = &cloth.stop;
         renew();
     }
 
+    bool broken_off() const { return control_->report().broken_off; }
     double time() const { return cloth_.phase->system().clock().time; }
 
     // Looks at the pairs if it is time to: welds those that are close, or pulls harder.
@@ -149,6 +151,7 @@ public:
             recover();
             return true;
         }
+        if (control_->report().broken_off) return false;
         progress_.steps = control_->memory();
         ++progress_.steps_since_look;
         const System& system = cloth_.phase->system();
@@ -222,9 +225,13 @@ PhaseEnd let_bodies_grow(SewnCloth& cloth, const SewingOptions& options, SewingP
     };
     while (!grown() || !settled()) {
         sewing.look();
-        if (grown()) ++progress.settled_steps;
+        const bool settles = grown();
         const int failures = progress.failures;
-        if (!sewing.step()) return PhaseEnd::stopped;
+        progress.settled_steps += settles;
+        if (!sewing.step()) {
+            if (sewing.broken_off()) progress.settled_steps -= settles;
+            return PhaseEnd::stopped;
+        }
         if (progress.failures > failures) return PhaseEnd::time_limit;
     }
     return PhaseEnd::reached;

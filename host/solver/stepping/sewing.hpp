@@ -48,6 +48,8 @@ struct SewnCloth {
     Profile& profile;
     std::unique_ptr<Phase>& phase;
     std::function<void()> remade = [] {};  ///< Called whenever the phase is another one.
+    /// Asked within steps: true gives up the one at hand and stops.
+    std::function<bool()> stop = [] { return false; };
 };
 
 /// Returns the largest distance of a stitched pair [m], 0 without stitches.
