@@ -107,6 +107,45 @@ Slide slide_on_incline(double angle, double friction)
     return slide;
 }
 
+// The halves of a sheet of 6 x 6 vertices without the faces between its two columns in the middle, moved apart and to
+// be sewn together again.
+struct TwoStrips {
+    // @param apart  [m]   @param pinned  vertices
+    explicit TwoStrips(double apart, std::vector<int> pinned = {})
+    {
+        std::erase_if(model.cloth.faces, [](const Face& f) {
+            int left = 0;
+            for (int v : f) left += v % 6 <= 2;
+            return left != 0 && left != 3;
+        });
+        model.cloth.panels[0].face_count = int(model.cloth.faces.size());
+        for (int v = 0; v < 36; ++v)
+            if (v % 6 >= 3) model.cloth.positions[v].x() += apart;
+        for (int row = 0; row < 6; ++row) model.cloth.seam_pairs.push_back({6 * row + 2, 6 * row + 3});
+        model.cloth.pinned = std::move(pinned);
+        PhaseOptions& options = sewn.options;
+        options.joined = false;
+        options.params = cloth_params();
+        options.params.gravity = {};
+        options.params.seam.stiffness = sewing.first_stiffness = 400;
+        options.params.seam.force_limit = sewing.first_limit = 0.02;
+        progress.welded = coinciding_pairs(model.cloth);
+        remake_phase(sewn, sewing, progress, model.cloth.positions, {}, {});
+    }
+
+    PhaseEnd close()
+    {
+        return close_seams(sewn, sewing, progress, [](const StepEvent&) { return true; });
+    }
+
+    ClothModel model = grid_model(6);
+    SewingOptions sewing;
+    SewingProgress progress;
+    Profile profile;
+    std::unique_ptr<Phase> phase;
+    SewnCloth sewn{model, {}, nullptr, profile, phase};
+};
+
 }  // namespace
 
 TEST_CASE("free fall follows the implicit Euler sequence exactly")
@@ -150,39 +189,14 @@ TEST_CASE("joining sewn vertices keeps the mass, the centre of mass and the mome
 
 TEST_CASE("sewing closes the gap between two strips")
 {
-    ClothModel model = grid_model(6);
-    // The faces between two columns in the middle are removed. The halves are moved 10 cm apart and sewn together.
-    std::erase_if(model.cloth.faces, [](const Face& f) {
-        int left = 0;
-        for (int v : f) left += v % 6 <= 2;
-        return left != 0 && left != 3;
-    });
-    model.cloth.panels[0].face_count = int(model.cloth.faces.size());
-    for (int v = 0; v < 36; ++v)
-        if (v % 6 >= 3) model.cloth.positions[v].x() += 0.1;
-    for (int row = 0; row < 6; ++row) model.cloth.seam_pairs.push_back({6 * row + 2, 6 * row + 3});
-    PhaseOptions options;
-    options.joined = false;
-    options.params = cloth_params();
-    options.params.gravity = {};
-    options.params.seam.stiffness = 400;
-    options.params.seam.force_limit = 0.02;
-    Profile profile;
-    std::unique_ptr<Phase> phase;
-    SewnCloth sewn{model, options, nullptr, profile, phase};
-    SewingOptions sewing;
-    sewing.first_stiffness = 400;
-    sewing.first_limit = 0.02;
-    SewingProgress progress;
-    progress.welded = coinciding_pairs(model.cloth);
-    CHECK(!all_welded(progress.welded));
-    remake_phase(sewn, sewing, progress, model.cloth.positions, {}, {});
-    CHECK(largest_gap(*phase) == Approx(0.12));
-    CHECK(phase->state().size.vertex_count == 36);
-    CHECK(close_seams(sewn, sewing, progress, [](const StepEvent&) { return true; }) == PhaseEnd::reached);
-    CHECK(all_welded(progress.welded));
-    CHECK(phase->state().size.vertex_count == 30);
-    CHECK(phase->topology().stitches.empty());
+    TwoStrips strips(0.1);
+    CHECK(!all_welded(strips.progress.welded));
+    CHECK(largest_gap(*strips.phase) == Approx(0.12));
+    CHECK(strips.phase->state().size.vertex_count == 36);
+    CHECK(strips.close() == PhaseEnd::reached);
+    CHECK(all_welded(strips.progress.welded));
+    CHECK(strips.phase->state().size.vertex_count == 30);
+    CHECK(strips.phase->topology().stitches.empty());
 }
 
 TEST_CASE("welding keeps the mass, the centre of mass, the momentum and the time")
@@ -212,35 +226,10 @@ TEST_CASE("welding keeps the mass, the centre of mass, the momentum and the time
 
 TEST_CASE("a seam that cannot close is given up, and what can close is welded")
 {
-    ClothModel model = grid_model(6);
-    std::erase_if(model.cloth.faces, [](const Face& f) {
-        int left = 0;
-        for (int v : f) left += v % 6 <= 2;
-        return left != 0 && left != 3;
-    });
-    model.cloth.panels[0].face_count = int(model.cloth.faces.size());
-    for (int v = 0; v < 36; ++v)
-        if (v % 6 >= 3) model.cloth.positions[v].x() += 0.01;
-    for (int row = 0; row < 6; ++row) model.cloth.seam_pairs.push_back({6 * row + 2, 6 * row + 3});
-    model.cloth.pinned = {2, 3};
-    PhaseOptions options;
-    options.joined = false;
-    options.params = cloth_params();
-    options.params.gravity = {};
-    options.params.seam.stiffness = 400;
-    options.params.seam.force_limit = 0.02;
-    Profile profile;
-    std::unique_ptr<Phase> phase;
-    SewnCloth sewn{model, options, nullptr, profile, phase};
-    SewingOptions sewing;
-    sewing.first_stiffness = 400;
-    sewing.first_limit = 0.02;
-    SewingProgress progress;
-    progress.welded = coinciding_pairs(model.cloth);
-    remake_phase(sewn, sewing, progress, model.cloth.positions, {}, {});
-    CHECK(close_seams(sewn, sewing, progress, [](const StepEvent&) { return true; }) == PhaseEnd::time_limit);
-    CHECK(progress.welded == std::vector<char>{0, 1, 1, 1, 1, 1});
-    CHECK(phase->system().clock().time < sewing.max_time);
+    TwoStrips strips(0.01, {2, 3});
+    CHECK(strips.close() == PhaseEnd::time_limit);
+    CHECK(strips.progress.welded == std::vector<char>{0, 1, 1, 1, 1, 1});
+    CHECK(strips.phase->system().clock().time < strips.sewing.max_time);
 }
 
 TEST_CASE("a sheet sticks on an incline below the friction angle and slides at Coulomb's rate above it")
