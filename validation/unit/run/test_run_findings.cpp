@@ -28,11 +28,13 @@ ClothModel worn_model()
 
 }  // namespace
 
-TEST_CASE("a garment is lost once it has fallen by half of its height, or touches no body that could wear it")
+TEST_CASE("a garment is lost once it has fallen by a fifth of its height, or touches no body that could wear it")
 {
     const ClothModel model = worn_model();
     CHECK(find_lost_garment(model, {0.6, 0.05, {true, false}}).empty());
     CHECK(find_lost_garment(model, {0.6, 0.05, {true, true}}).empty());
+    CHECK(find_lost_garment(model, {0.6, 0.1, {true, true}}).empty());
+    CHECK(find_lost_garment(model, {0.6, 0.15, {true, true}}).size() == 1);
 
     const std::vector<Finding> slid = find_lost_garment(model, {0.6, 0.86, {true, true}});
     REQUIRE(slid.size() == 1);
