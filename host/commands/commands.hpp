@@ -7,7 +7,7 @@
 namespace selvage {
 
 AddCommand add_drape_command, add_plan_command, add_check_command, add_render_command, add_info_command,
-    add_scenes_command, add_fabrics_command, add_schema_command;
+    add_measure_command, add_scenes_command, add_fabrics_command, add_schema_command;
 
 /// The scene that a subcommand works on.
 struct SceneChoice {

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
+
+#include "host/mesh/convex_hull.hpp"
 
 namespace selvage {
 namespace {
@@ -35,28 +38,6 @@ double smooth_step(double from, double to, double x)
 {
     const double w = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return w * w * (3 - 2 * w);
-}
-
-double cross(const Vec2& o, const Vec2& a, const Vec2& b)
-{
-    return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x();
-}
-
-double hull_perimeter(std::vector<Vec2> points)
-{
-    std::sort(points.begin(), points.end(),
-              [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
-    double length = 0;
-    for (int side = 0; side < 2; ++side) {
-        std::vector<Vec2> chain;
-        for (const Vec2& point : points) {
-            while (chain.size() > 1 && cross(chain[chain.size() - 2], chain.back(), point) <= 0) chain.pop_back();
-            chain.push_back(point);
-        }
-        for (std::size_t k = 1; k < chain.size(); ++k) length += (chain[k] - chain[k - 1]).norm();
-        std::reverse(points.begin(), points.end());
-    }
-    return length;
 }
 
 }  // namespace
@@ -190,7 +171,7 @@ double MannequinShape::girth(double height) const
         }
         points.push_back(inside * direction);
     }
-    return hull_perimeter(points);
+    return perimeter(convex_hull(std::move(points)));
 }
 
 void MannequinShape::calibrate()

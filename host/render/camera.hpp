@@ -15,6 +15,7 @@ struct ViewDirection {
 enum class PictureViews {
     automatic,       ///< Front and back for cloth with seams, three quarters for sheets.
     front_and_back,  ///< From -y and from +y, a little from above.
+    front_and_side,  ///< From -y and from +x, level.
     three_quarters,  ///< From the front right and the back left, from above.
 };
 

@@ -50,6 +50,7 @@ std::array<ViewDirection, 2> view_directions(PictureViews views, bool has_seams,
 {
     if (views == PictureViews::front_and_back || (views == PictureViews::automatic && has_seams))
         return {ViewDirection{0, 5 * degree}, ViewDirection{180 * degree, 5 * degree}};
+    if (views == PictureViews::front_and_side) return {ViewDirection{0, 0}, ViewDirection{90 * degree, 0}};
 
     // The flatter the subject is, the higher the camera stands. Angles chosen by eye.
     const Vec3f size = box_of(points).sizes();

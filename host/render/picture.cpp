@@ -30,6 +30,8 @@ void check(const PictureCloth& cloth, const PictureOptions& options)
                                     ", expected at least 1");
     if (!cloth.face_panel.empty() && cloth.face_panel.size() != cloth.faces.size())
         throw std::invalid_argument("face_panel must be empty or hold one panel for each face");
+    if (!cloth.face_colours.empty() && cloth.face_colours.size() != cloth.faces.size())
+        throw std::invalid_argument("face_colours must be empty or hold one colour for each face");
     for (const int face : cloth.highlighted_faces)
         if (face < 0 || face >= int(cloth.faces.size()))
             throw std::invalid_argument("highlighted face " + std::to_string(face) + " does not exist");
@@ -58,7 +60,12 @@ std::vector<Vec3f> face_colours(const PictureCloth& cloth, const DrawnMesh& mesh
     std::vector<Vec3f> colours;
     for (const int source : mesh.source_face) {
         const int panel = cloth.face_panel.empty() ? 0 : cloth.face_panel[std::size_t(source)];
-        colours.push_back(highlighted[std::size_t(source)] ? warning_colour : panel_colour(panel));
+        if (highlighted[std::size_t(source)])
+            colours.push_back(warning_colour);
+        else if (!cloth.face_colours.empty())
+            colours.push_back(Vec3f(cloth.face_colours[std::size_t(source)].data()));
+        else
+            colours.push_back(panel_colour(panel));
     }
     return colours;
 }

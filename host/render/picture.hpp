@@ -13,7 +13,9 @@ namespace selvage {
 struct PictureCloth {
     std::vector<Vec3> positions;  ///< [m], z up
     std::vector<Face> faces;
-    std::vector<int> face_panel;                 ///< Panel of each face, for its colour; empty for one panel.
+    std::vector<int> face_panel;  ///< Panel of each face, for its colour; empty for one panel.
+    /// Linear reflectance of each face, red, green and blue; empty: from its panel.
+    std::vector<std::array<float, 3>> face_colours = {};
     std::vector<std::array<int, 2>> seam_edges;  ///< Vertex pairs drawn as stitching.
     std::vector<int> highlighted_faces;          ///< Drawn in a warning colour.
 };

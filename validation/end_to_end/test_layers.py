@@ -12,7 +12,7 @@ LAYERS = [
     ["host/parallel", "host/embree"],
     ["host/model", "host/render"],
     ["host/mesh"],
-    ["host/collision", "host/mannequin"],
+    ["host/collision", "host/mannequin", "host/body"],
     ["host/solver", "host/garment"],
     ["host/examine"],
     ["host/scene"],

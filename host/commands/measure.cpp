@@ -1,0 +1,82 @@
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "host/body/body_measures.hpp"
+#include "host/body/body_picture.hpp"
+#include "host/body/body_report.hpp"
+#include "host/commands/commands.hpp"
+#include "host/scene/measured_body.hpp"
+
+namespace selvage {
+namespace {
+
+struct MeasureArguments {
+    BodySource body;
+    std::string unit = "m", up = "z", picture;
+    int width = 1600;
+    bool json = false;
+};
+
+std::vector<std::string> words_for_option(std::span<const std::string_view> words)
+{
+    return {words.begin(), words.end()};
+}
+
+int measure(MeasureArguments arguments)
+{
+    arguments.body.unit = *find_word<LengthUnit>(arguments.unit);
+    arguments.body.up_axis = *find_word<Axis>(arguments.up);
+    const TriangleMesh mesh = load_measured_body(arguments.body);
+    const BodyMeasures measures = measure_body(mesh, {arguments.body.source, 0, 0, {}});
+    std::cout << (arguments.json ? measures_json(measures, arguments.body.source)
+                                 : measures_text(measures, arguments.body.source));
+    if (!arguments.picture.empty()) {
+        write_png(arguments.picture, draw_measures(mesh, measures, arguments.width));
+        std::cerr << "wrote " << arguments.picture << '\n';
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& program, Action& chosen)
+{
+    auto arguments = std::make_shared<MeasureArguments>();
+    CLI::App* command = program.add_subcommand(
+        "measure",
+        "Find parts, landmarks, girths and lengths of a body from its shape, in any pose in which it stands");
+    command
+        ->add_option(
+            "BODY", arguments->body.source,
+            "OBJ file; or a scene, whose first body is measured: a TOML file or builtin:NAME; builtin:mannequin")
+        ->required();
+    command
+        ->add_option("-o,--output", arguments->picture,
+                     "picture to write: parts, measures and landmarks, from front and side")
+        ->type_name("PNG");
+    command->add_option("--unit", arguments->unit, "length unit of the OBJ file")
+        ->check(CLI::IsMember(words_for_option(words_of<LengthUnit>())))
+        ->capture_default_str();
+    command->add_option("--up", arguments->up, "up direction of the OBJ file")
+        ->check(CLI::IsMember(words_for_option(words_of<Axis>())))
+        ->capture_default_str();
+    command->add_option("--scale", arguments->body.scale, "scales the OBJ file")
+        ->check(CLI::Range(1e-4, 1e4))
+        ->capture_default_str();
+    command->add_option("--set", arguments->body.overrides, "set a key of the scene; may be repeated")
+        ->type_name("TABLE.KEY=VALUE")
+        ->allow_extra_args(false);
+    command->add_option("--width", arguments->width, "width of the picture in pixels")
+        ->check(CLI::Range(64, 16384))
+        ->capture_default_str();
+    command->add_flag("--json", arguments->json, "print JSON in SI units, with the part of each vertex");
+    command->footer(
+        "Example:\n"
+        "  selvage measure body.obj --unit cm --up y -o body.png\n"
+        "  selvage measure builtin:mannequin --set body[0].size=L");
+    command->callback([arguments, &chosen] { chosen = [arguments] { return measure(*arguments); }; });
+}
+
+}  // namespace selvage
