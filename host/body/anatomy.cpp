@@ -32,13 +32,13 @@ Vec3 middle_of_arm(const Anatomy& body, int side, double from_hand)
 }
 
 // The skin of the armpit follows a raised arm: it lies on the line that halves the angle between arm and trunk. What
-// that moves it away from where it is with the arm at 45 degrees is taken back.
+// that moves it outwards from where it is with the arm at 45 degrees is taken back. Below, it hardly moves.
 double shoulder_plane(const Anatomy& body, int side)
 {
     const double reach = reach_of_arm(body, side), piece = upper_arm * body.height;
     const Vec3 along = middle_of_arm(body, side, reach - piece) - middle_of_arm(body, side, reach);
     const double below = std::acos(std::clamp(-along.z() / along.norm(), -1.0, 1.0));  // angle from hanging down
-    const double moved = armpit_radius * body.height * (std::sin(below / 2) - std::sin(M_PI / 8));
+    const double moved = armpit_radius * body.height * std::max(std::sin(below / 2) - std::sin(M_PI / 8), 0.0);
     return std::abs(body.armpits[side].x()) - moved;
 }
 
@@ -47,9 +47,7 @@ bool on_arm(const Anatomy& body, int side, int vertex)
     const Vec3& x = body.at(vertex);
     const double from_hand = body.limbs.from_hand[side][vertex], reach = reach_of_arm(body, side);
     if (x.z() < body.armpits[side].z()) return from_hand < reach;
-    // Beside the chest a hanging arm begins at the armpit.
-    const double plane = std::min(body.shoulders[side], std::abs(body.armpits[side].x()));
-    return (side == 0 ? x.x() : -x.x()) > plane && from_hand < reach + over_shoulder * body.height;
+    return (side == 0 ? x.x() : -x.x()) > body.shoulders[side] && from_hand < reach + over_shoulder * body.height;
 }
 
 bool below_groin(const Anatomy& body, const Vec3& x) { return x.z() < body.crotch + groin_slope * std::abs(x.x()); }

@@ -110,15 +110,16 @@ private:
         add_level("bust", levels.bust, levels.bust_is_foremost ? "foremost of the chest" : "just below the armpits");
         add_level("underbust", levels.underbust, "bend of the girth below the bust");
         add_level("waist", levels.waist,
-                  levels.waist_is_narrowest ? "narrowest of the trunk" : "hollow of the back, no narrowest place");
-        add_level("hips", levels.hips, "widest between crotch and waist");
+                  levels.waist_is_narrowest ? "narrowest of the trunk" : "hollow of the back, not narrowest");
+        add_level("hips", levels.hips,
+                  levels.hips_are_widest ? "widest above the crotch" : "hindmost of the seat, below a belly");
     }
 
     void add_limb_girths()
     {
         const LimbLevels& limbs = found_.limbs;
         add_limbs("upper_arm", limbs.upper_arm, "widest just below the armpit, across the arm");
-        add_limbs("wrist", limbs.wrist, "narrowest above the hand, across the arm");
+        add_limbs("wrist", limbs.wrist, "at the bone above the narrowest place, across the arm");
         add_limbs("thigh", limbs.thigh, "just below the crotch, level");
         add_limbs("knee", limbs.knee,
                   limbs.knee_is_cap ? "at the kneecap, level" : "narrowest between thigh and calf, level");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host/body/trunk_levels.hpp"
+#include "host/body/bend.hpp"
 
 namespace selvage {
 namespace {
@@ -15,12 +15,14 @@ struct LimbWindows {
     static constexpr double axis_half = 0.025;                     // half the piece of an arm that gives its axis
     static constexpr double around = 0.08;                         // how far the skin of a section lies along the arm
     static constexpr double wrist_low = 0.085, wrist_high = 0.15;  // from the tip of the hand; a hand has 0.108
+    static constexpr double wrist_bone = 0.005;                    // above the narrowest place
     static constexpr double upper_arm_low = 0.012, upper_arm_high = 0.04;  // below the armpit
     static constexpr double thigh_below_crotch = 0.01;
-    static constexpr double ankle_low = 0.03, ankle_high = 0.13;
-    static constexpr double calf_low = 0.13, calf_high = 0.25;
-    static constexpr double knee_low = 0.48, knee_high = 0.80;  // over the height of the crotch
-    static constexpr double least_knee = 0.001;                 // by which a kneecap stands out
+    static constexpr double least_knee = 0.0008;  // by which a kneecap stands out
+    // Over the height of the crotch, since children have short legs.
+    static constexpr double ankle_low = 0.066, ankle_high = 0.287;
+    static constexpr double calf_low = 0.287, calf_high = 0.55;
+    static constexpr double knee_low = 0.48, knee_high = 0.72;
 };
 
 // Follows one arm from the tip of its hand.
@@ -79,6 +81,7 @@ void find_arm(const Anatomy& body, int side, LimbLevels& levels)
         if (found && (!levels.wrist[side] || found->tape.length < levels.wrist[side]->tape.length))
             levels.wrist[side] = std::move(found);
     }
+    if (levels.wrist[side]) levels.wrist[side] = arm.at(levels.wrist[side]->from_tip + LimbWindows::wrist_bone * h);
     for (double d = LimbWindows::upper_arm_low * h; d < LimbWindows::upper_arm_high * h;
          d += 2 * LimbWindows::step * h) {
         std::optional<LimbTape> found = arm.at(armpit - d);
@@ -102,15 +105,24 @@ std::optional<LimbTape> leg_at(const Anatomy& body, int side, double z)
     return found;
 }
 
-std::vector<LegSection> leg_sections(const Anatomy& body, int side)
+std::optional<LegSection> leg_section(const Anatomy& body, int side, double z)
 {
-    std::vector<LegSection> sections;
-    for (double z = LimbWindows::ankle_low * body.height; z < body.crotch; z += LimbWindows::step * body.height) {
-        const std::optional<LimbTape> found = leg_at(body, side, z);
-        if (!found) continue;
-        LegSection section{z, found->tape.length, found->tape.points.front().y()};
-        for (const Vec3& point : found->tape.points) section.front = std::min(section.front, point.y());
-        sections.push_back(section);
+    const std::optional<LimbTape> found = leg_at(body, side, z);
+    if (!found) return {};
+    LegSection section{z, found->tape.length, found->tape.points.front().y()};
+    for (const Vec3& point : found->tape.points) section.front = std::min(section.front, point.y());
+    return section;
+}
+
+// The sections of both legs, at the same heights.
+std::array<std::vector<LegSection>, 2> leg_sections(const Anatomy& body)
+{
+    std::array<std::vector<LegSection>, 2> sections;
+    for (double z = LimbWindows::ankle_low * body.crotch; z < body.crotch; z += LimbWindows::step * body.height) {
+        const std::optional<LegSection> left = leg_section(body, 0, z), right = leg_section(body, 1, z);
+        if (!left || !right) continue;
+        sections[0].push_back(*left);
+        sections[1].push_back(*right);
     }
     return sections;
 }
@@ -128,34 +140,38 @@ std::optional<double> extreme_girth(const std::vector<LegSection>& sections, dou
     return best->z;
 }
 
-// The kneecap: what stands out most to the front between shin and thigh.
-std::optional<double> knee_level(const Anatomy& body, const std::vector<LegSection>& sections)
+// The kneecap: what stands out most to the front between shin and thigh, in the mean of both legs, since it is little.
+std::optional<double> kneecap_level(const Anatomy& body, const std::array<std::vector<LegSection>, 2>& sections)
 {
     std::vector<Vec2> profile;
-    for (const LegSection& section : sections)
-        if (section.z > LimbWindows::knee_low * body.crotch && section.z < LimbWindows::knee_high * body.crotch)
-            profile.emplace_back(section.z, section.front);
-    const int bend = bend_of(profile, -1);
-    if (bend < 0) return {};
-    const Vec2 along = (profile.back() - profile.front()).normalized(), to = profile[bend] - profile.front();
-    if (along.y() * to.x() - along.x() * to.y() < LimbWindows::least_knee * body.height) return {};
-    return profile[bend].x();
+    for (std::size_t k = 0; k < sections[0].size(); ++k) {
+        const double z = sections[0][k].z;
+        if (z > LimbWindows::knee_low * body.crotch && z < LimbWindows::knee_high * body.crotch)
+            profile.emplace_back(z, (sections[0][k].front + sections[1][k].front) / 2);
+    }
+    const Bend bend = find_bend(profile, BendSide::right);
+    if (bend.depth < LimbWindows::least_knee * body.height) return {};
+    return profile[bend.middle].x();
 }
 
-void find_leg(const Anatomy& body, int side, LimbLevels& levels)
+void find_legs(const Anatomy& body, LimbLevels& levels)
 {
-    const double h = body.height;
-    const std::vector<LegSection> sections = leg_sections(body, side);
-    levels.thigh[side] = leg_at(body, side, body.crotch - LimbWindows::thigh_below_crotch * h);
-    std::optional<double> knee = knee_level(body, sections);
-    levels.knee_is_cap = levels.knee_is_cap && knee;
-    if (!knee)
-        knee = extreme_girth(sections, LimbWindows::knee_low * body.crotch, LimbWindows::knee_high * body.crotch, -1);
-    if (knee) levels.knee[side] = leg_at(body, side, *knee);
-    if (const auto z = extreme_girth(sections, LimbWindows::calf_low * h, LimbWindows::calf_high * h, 1))
-        levels.calf[side] = leg_at(body, side, *z);
-    if (const auto z = extreme_girth(sections, LimbWindows::ankle_low * h, LimbWindows::ankle_high * h, -1))
-        levels.ankle[side] = leg_at(body, side, *z);
+    const std::array<std::vector<LegSection>, 2> sections = leg_sections(body);
+    const std::optional<double> kneecap = kneecap_level(body, sections);
+    levels.knee_is_cap = kneecap.has_value();
+    for (int side = 0; side < 2; ++side) {
+        const auto extreme = [&](double low, double high, double sign) {
+            return extreme_girth(sections[side], low * body.crotch, high * body.crotch, sign);
+        };
+        levels.thigh[side] = leg_at(body, side, body.crotch - LimbWindows::thigh_below_crotch * body.height);
+        const std::optional<double> knee =
+            kneecap ? kneecap : extreme(LimbWindows::knee_low, LimbWindows::knee_high, -1);
+        if (knee) levels.knee[side] = leg_at(body, side, *knee);
+        if (const auto z = extreme(LimbWindows::calf_low, LimbWindows::calf_high, 1))
+            levels.calf[side] = leg_at(body, side, *z);
+        if (const auto z = extreme(LimbWindows::ankle_low, LimbWindows::ankle_high, -1))
+            levels.ankle[side] = leg_at(body, side, *z);
+    }
 }
 
 }  // namespace
@@ -163,10 +179,8 @@ void find_leg(const Anatomy& body, int side, LimbLevels& levels)
 LimbLevels find_limb_levels(const Anatomy& body)
 {
     LimbLevels levels;
-    for (int side = 0; side < 2; ++side) {
-        find_arm(body, side, levels);
-        find_leg(body, side, levels);
-    }
+    for (int side = 0; side < 2; ++side) find_arm(body, side, levels);
+    find_legs(body, levels);
     return levels;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host/body/trunk_levels.hpp"
+#include "host/body/bend.hpp"
 
 namespace selvage {
 namespace {
@@ -18,7 +18,6 @@ struct NeckLimits {                                                // over the h
     static constexpr double base_radius = 0.11;  // the same for its base
     static constexpr double steepest = 0.6;      // tangent of the axis from the upright: more is no neck but a chin
     static constexpr double profile_step = 0.0015;
-    static constexpr double round_bend = 0.85;  // of the greatest depth of the bend
 };
 
 // Faces of the trunk near the neck's middle, seen from above.
@@ -43,23 +42,6 @@ bool top_at(const Anatomy& body, int side, double x, double below, Vec3& top)
     return found;
 }
 
-// The index of the middle of all that is nearly as far below the line from neck to shoulder as the bend is: the slope
-// is round, so that the bend itself moves with the slightest change.
-std::size_t middle_of_bend(const std::vector<Vec2>& curve)
-{
-    const int bend = bend_of(curve, -1);
-    if (bend < 0) return 0;
-    const Vec2 along = curve.back() - curve.front();
-    const auto depth = [&](std::size_t k) {
-        const Vec2 to = curve[k] - curve.front();
-        return along.y() * to.x() - along.x() * to.y();
-    };
-    std::size_t first = bend, last = bend;
-    while (first > 0 && depth(first - 1) > NeckLimits::round_bend * depth(bend)) --first;
-    while (last + 1 < curve.size() && depth(last + 1) > NeckLimits::round_bend * depth(bend)) ++last;
-    return (first + last) / 2;
-}
-
 // The tops of both shoulders from the neck outwards; the bend of their mean is where they rise into the neck.
 void find_sides(const Anatomy& body, double neck_level, double neck_half, const InputPlace& place, Shoulders& shoulders)
 {
@@ -82,7 +64,7 @@ void find_sides(const Anatomy& body, double neck_level, double neck_half, const 
         found = found &&
                 top_at(body, side, (side == 0 ? 1 : -1) * body.shoulders[side], neck_level, shoulders.shoulder[side]);
     if (!found) throw InputError(place, "no shoulders above the armpits", "a body with shoulders");
-    shoulders.neck_side = profile[middle_of_bend(curve)];
+    shoulders.neck_side = profile[std::max(find_bend(curve, BendSide::right).middle, 0)];
 }
 
 void find_neck(const Anatomy& body, double neck_level, Shoulders& shoulders)

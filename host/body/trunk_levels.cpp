@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/body/bend.hpp"
+
 namespace selvage {
 namespace {
 
@@ -10,7 +12,8 @@ namespace {
 struct LevelWindows {
     static constexpr double step = 0.0025;
     static constexpr double waist_above_crotch = 0.10, waist_below_armpit = 0.045;
-    static constexpr double hips_above_crotch = 0.01;
+    static constexpr double narrowest_above_hollow = 0.04;  // 0.02 on bodies without a belly
+    static constexpr double hips_above_crotch = 0.01, hips_below_belly = 0.11;
     static constexpr double bust_below_armpit = 0.075, bust_above_armpit = 0.03, chest_below_armpit = 0.025;
     static constexpr double neck_above_armpit = 0.03, neck_below_crown = 0.085;
     static constexpr double underbust_bend = 0.01;  // of the bust girth; less than that is no bend
@@ -18,6 +21,8 @@ struct LevelWindows {
 };
 
 using Sections = std::vector<TrunkSection>;
+
+bool by_girth(const TrunkSection& a, const TrunkSection& b) { return a.girth < b.girth; }
 
 Sections between(const Sections& sections, double low, double high)
 {
@@ -49,9 +54,24 @@ void find_waist(const Anatomy& body, const Sections& sections, double armpit, Tr
     const double h = body.height;
     const Sections window = between(sections, body.crotch + LevelWindows::waist_above_crotch * h,
                                     armpit - LevelWindows::waist_below_armpit * h);
-    levels.waist = inner_minimum(window, [](const TrunkSection& s) { return s.girth; });
-    levels.waist_is_narrowest = levels.waist.has_value();
-    if (!levels.waist) levels.waist = inner_minimum(window, [](const TrunkSection& s) { return s.back; });
+    const std::optional<double> narrowest = inner_minimum(window, [](const TrunkSection& s) { return s.girth; });
+    const std::optional<double> hollow = inner_minimum(window, [](const TrunkSection& s) { return s.back; });
+    // Over a large belly the narrowest place lies under the chest.
+    levels.waist_is_narrowest =
+        narrowest && !(hollow && *narrowest - *hollow > LevelWindows::narrowest_above_hollow * h);
+    levels.waist = levels.waist_is_narrowest ? narrowest : hollow;
+}
+
+// The widest place near the crotch; where it only grows towards the belly, the hindmost place of the seat.
+void find_hips(const Anatomy& body, const Sections& sections, TrunkLevels& levels)
+{
+    const double h = body.height, low = body.crotch + LevelWindows::hips_above_crotch * h;
+    const Sections window = between(sections, low, body.crotch + LevelWindows::hips_below_belly * h);
+    if (window.empty()) return;
+    const auto widest = std::max_element(window.begin(), window.end(), by_girth);
+    levels.hips_are_widest = widest + 1 != window.end();
+    levels.hips = widest->z;
+    if (!levels.hips_are_widest) levels.hips = inner_minimum(window, [](const TrunkSection& s) { return -s.back; });
 }
 
 void find_bust(const Anatomy& body, const Sections& sections, double armpit, TrunkLevels& levels)
@@ -66,28 +86,12 @@ void find_bust(const Anatomy& body, const Sections& sections, double armpit, Tru
     std::vector<Vec2> curve;
     const Sections below = between(sections, *levels.waist, *levels.bust);
     for (const TrunkSection& s : below) curve.emplace_back(s.z, s.girth);
-    const int bend = bend_of(curve, -1);
-    if (bend < 0) return;
-    const double share = (curve[bend].x() - curve.front().x()) / (curve.back().x() - curve.front().x());
-    const double chord = curve.front().y() + share * (curve.back().y() - curve.front().y());
-    if (chord - curve[bend].y() > LevelWindows::underbust_bend * curve.back().y()) levels.underbust = curve[bend].x();
+    // Girths and heights have the same scale here: both in metres.
+    const Bend bend = find_bend(curve, BendSide::right);
+    if (bend.depth > LevelWindows::underbust_bend * curve.back().y()) levels.underbust = curve[bend.point].x();
 }
 
 }  // namespace
-
-int bend_of(const std::vector<Vec2>& curve, double side)
-{
-    int bend = -1;
-    double furthest = 0;
-    for (std::size_t k = 1; k + 1 < curve.size(); ++k) {
-        const Vec2 along = curve.back() - curve.front(), to = curve[k] - curve.front();
-        const double distance = side * (along.x() * to.y() - along.y() * to.x());
-        if (distance <= furthest) continue;
-        furthest = distance;
-        bend = int(k);
-    }
-    return bend;
-}
 
 std::vector<TrunkSection> trunk_sections(const Anatomy& body)
 {
@@ -108,13 +112,7 @@ TrunkLevels find_levels(const Anatomy& body, const std::vector<TrunkSection>& se
     const double armpit = 0.5 * (body.armpits[0].z() + body.armpits[1].z()), h = body.height;
     find_waist(body, sections, armpit, levels);
     find_bust(body, sections, armpit, levels);
-    if (levels.waist) {
-        const Sections below = between(sections, body.crotch + LevelWindows::hips_above_crotch * h, *levels.waist);
-        const auto widest = std::max_element(
-            below.begin(), below.end(), [](const TrunkSection& a, const TrunkSection& b) { return a.girth < b.girth; });
-        if (widest != below.end()) levels.hips = widest->z;
-    }
-    const auto by_girth = [](const TrunkSection& a, const TrunkSection& b) { return a.girth < b.girth; };
+    find_hips(body, sections, levels);
     const Sections upper =
         between(sections, armpit + LevelWindows::neck_above_armpit * h, h * (1 - LevelWindows::neck_below_crown));
     const auto neck = std::min_element(upper.begin(), upper.end(), by_girth);

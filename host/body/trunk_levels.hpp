@@ -19,6 +19,7 @@ struct TrunkLevels {
     std::optional<double> bust, underbust, waist, hips;
     double neck = 0;                 ///< Where a horizontal tape around the neck is shortest.
     bool waist_is_narrowest = true;  ///< Else it is where the back is hollowest.
+    bool hips_are_widest = true;     ///< Else they are where the seat is hindmost.
     bool bust_is_foremost = true;    ///< Else it is just below the armpits: nothing of the chest stands out.
 };
 
@@ -28,10 +29,5 @@ std::vector<TrunkSection> trunk_sections(const Anatomy& body);
 /// Finds the levels at which a trunk is measured.
 /// @throws InputError if there is no neck
 TrunkLevels find_levels(const Anatomy& body, const std::vector<TrunkSection>& sections, const InputPlace& place);
-
-/// Returns the index of the point that lies furthest on one side of the line from the first to the last point: the
-/// bend of a curve. -1: none lies there.
-/// @param side  1: left of the line, seen from its start; -1: right of it
-int bend_of(const std::vector<Vec2>& curve, double side);
 
 }  // namespace selvage
