@@ -37,6 +37,7 @@ double shoulder_plane(const Anatomy& body, int side)
 {
     const double reach = reach_of_arm(body, side), piece = upper_arm * body.height;
     const Vec3 along = middle_of_arm(body, side, reach - piece) - middle_of_arm(body, side, reach);
+    if (!(along.norm() > 0)) return std::abs(body.armpits[side].x());
     const double below = std::acos(std::clamp(-along.z() / along.norm(), -1.0, 1.0));  // angle from hanging down
     const double moved = armpit_radius * body.height * std::max(std::sin(below / 2) - std::sin(M_PI / 8), 0.0);
     return std::abs(body.armpits[side].x()) - moved;

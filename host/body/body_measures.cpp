@@ -68,6 +68,10 @@ private:
 
     void add_girth(const char* name, const Tape& tape, const std::string& where)
     {
+        if (tape.points.empty()) {
+            result_.missing.push_back(name);
+            return;
+        }
         result_.girths.push_back(
             {name, tape.length, where + (tape.over_hole ? over_hole : ""), {in_file(tape.points)}, true});
     }

@@ -72,16 +72,25 @@ private:
     const std::vector<double>& from_hand_;
 };
 
+// The distance from the tip of the hand at which an arm is narrowest, if that is not at an end of the window.
+std::optional<double> narrowest_wrist(const Arm& arm, double height)
+{
+    std::vector<Vec2> girths;
+    for (double d = LimbWindows::wrist_low * height; d < LimbWindows::wrist_high * height;
+         d += LimbWindows::step * height)
+        if (const std::optional<LimbTape> found = arm.at(d)) girths.emplace_back(d, found->tape.length);
+    const auto narrowest =
+        std::min_element(girths.begin(), girths.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
+    if (girths.empty() || narrowest == girths.begin() || narrowest == girths.end() - 1) return {};
+    return narrowest->x();
+}
+
 void find_arm(const Anatomy& body, int side, LimbLevels& levels)
 {
     const double h = body.height, armpit = body.limbs.from_hand[side][body.limbs.armpits[side]];
     const Arm arm(body, side);
-    for (double d = LimbWindows::wrist_low * h; d < LimbWindows::wrist_high * h; d += LimbWindows::step * h) {
-        std::optional<LimbTape> found = arm.at(d);
-        if (found && (!levels.wrist[side] || found->tape.length < levels.wrist[side]->tape.length))
-            levels.wrist[side] = std::move(found);
-    }
-    if (levels.wrist[side]) levels.wrist[side] = arm.at(levels.wrist[side]->from_tip + LimbWindows::wrist_bone * h);
+    if (const std::optional<double> wrist = narrowest_wrist(arm, h))
+        levels.wrist[side] = arm.at(*wrist + LimbWindows::wrist_bone * h);
     for (double d = LimbWindows::upper_arm_low * h; d < LimbWindows::upper_arm_high * h;
          d += 2 * LimbWindows::step * h) {
         std::optional<LimbTape> found = arm.at(armpit - d);

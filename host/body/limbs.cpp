@@ -23,7 +23,8 @@ struct LimbLimits {
     static constexpr double crotch_low = 0.28, crotch_high = 0.62;
     static constexpr double armpit_low = 0.58, armpit_high = 0.92;
     static constexpr double foot_height = 0.04, ankle_low = 0.05, ankle_high = 0.08;
-    static constexpr double least_foot = 0.15;      // (toes - heel) / (toes + heel), before and behind the ankle
+    static constexpr double least_foot = 0.15;  // (toes - heel) / (toes + heel), before and behind the ankle
+    static constexpr double head_bottom = 0.90, trunk_top = 0.05, least_lean = 0.004;
     static constexpr double least_flatness = 1.25;  // of the torso's section, second moments: below, it shows no side
 };
 
@@ -98,11 +99,26 @@ void examine_heights(const Skin& skin, const Extent& height, const Roles& roles,
     }
 }
 
-// The horizontal axis from side to side: along the armpits, and better along the longer axis of the torso's section.
+bool beyond_an_armpit(const Limbs& limbs, std::size_t vertex)
+{
+    bool on_arm = false;
+    for (int k = 0; k < 2; ++k) on_arm |= limbs.from_hand[k][vertex] < limbs.from_hand[k][limbs.armpits[k]];
+    return on_arm;
+}
+
 struct Torso {
-    Vec3 middle = Vec3::Zero(), side = Vec3::UnitX();
+    Vec3 middle = Vec3::Zero(), side = Vec3::UnitX();  ///< Horizontal axis from side to side.
 };
 
+// The angle of a direction from an axis, whichever way it points, seen from above [rad].
+double angle_from(const Vec2& axis, Vec2 direction)
+{
+    if (direction.dot(axis) < 0) direction = -direction;
+    return std::atan2(axis.x() * direction.y() - axis.y() * direction.x(), axis.dot(direction));
+}
+
+// The axis from side to side is the middle one of three: between the armpits, between the fingertips, and the longer
+// axis of the torso's section. Each of them is off on some bodies: by a few degrees, or far where one arm is raised.
 Torso torso_of(const Skin& skin, const Extent& height, const Limbs& limbs)
 {
     const double low = skin.vertices[limbs.crotch].z() + 0.05 * height.size;
@@ -112,25 +128,26 @@ Torso torso_of(const Skin& skin, const Extent& height, const Limbs& limbs)
     Mat2 second = Mat2::Zero();
     for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
         const Vec3& x = skin.vertices[v];
-        bool on_arm = false;
-        for (int k = 0; k < 2; ++k) on_arm |= limbs.from_hand[k][v] < limbs.from_hand[k][limbs.armpits[k]];
-        if (on_arm || x.z() < low || x.z() > high) continue;
+        if (beyond_an_armpit(limbs, v) || x.z() < low || x.z() > high) continue;
         area += skin.area[v];
         first += skin.area[v] * x.head<2>();
         second += skin.area[v] * x.head<2>() * x.head<2>().transpose();
     }
+    const auto across = [&](const std::array<int, 2>& pair) {
+        return Vec2((skin.vertices[pair[0]] - skin.vertices[pair[1]]).head<2>());
+    };
+    const Vec2 armpits = across(limbs.armpits).normalized();
     Torso torso;
-    torso.side = skin.vertices[limbs.armpits[0]] - skin.vertices[limbs.armpits[1]];
-    torso.side.z() = 0;
-    torso.side.normalize();
+    torso.side = Vec3(armpits.x(), armpits.y(), 0);
     if (!(area > 0)) return torso;
     const Vec2 middle = first / area;
     torso.middle.head<2>() = middle;
     const Eigen::SelfAdjointEigenSolver<Mat2> axes(second / area - middle * middle.transpose());
     if (axes.eigenvalues()[1] < LimbLimits::least_flatness * axes.eigenvalues()[0]) return torso;
-    Vec3 longer(axes.eigenvectors()(0, 1), axes.eigenvectors()(1, 1), 0);
-    if (longer.dot(torso.side) < 0) longer = -longer;
-    if (longer.dot(torso.side) > std::cos(30 * M_PI / 180)) torso.side = longer;
+    std::array<double, 3> turns{0, angle_from(armpits, across(limbs.hand_tips)),
+                                angle_from(armpits, axes.eigenvectors().col(1))};
+    std::sort(turns.begin(), turns.end());
+    torso.side = Eigen::AngleAxisd(turns[1], Vec3::UnitZ()) * torso.side;
     return torso;
 }
 
@@ -158,6 +175,21 @@ double reach_of_feet(const Skin& skin, const Extent& height, const Limbs& limbs,
         behind += std::max(ankle / area - least, 0.0);
     }
     return before + behind > 0 ? (before - behind) / (before + behind) : 0;
+}
+
+// How far the head lies before the top of the trunk, over the height: necks lean forward.
+double reach_of_head(const Skin& skin, const Extent& height, const Limbs& limbs, const Vec3& direction)
+{
+    const double armpits = height.share((height_of(skin, limbs.armpits[0]) + height_of(skin, limbs.armpits[1])) / 2);
+    std::array<double, 2> area{}, along{};  // of the head, of the trunk
+    for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
+        const double at = height.share(skin.vertices[v].z());
+        const bool head = at > LimbLimits::head_bottom;
+        if (beyond_an_armpit(limbs, v) || (!head && (at < armpits || at > armpits + LimbLimits::trunk_top))) continue;
+        area[head ? 0 : 1] += skin.area[v];
+        along[head ? 0 : 1] += skin.area[v] * skin.vertices[v].dot(direction);
+    }
+    return area[0] > 0 && area[1] > 0 ? (along[0] / area[0] - along[1] / area[1]) / height.size : 0;
 }
 
 void swap_sides(Limbs& limbs)
@@ -204,10 +236,13 @@ Limbs find_limbs(const Skin& skin, const InputPlace& place)
     }
 
     Torso torso = torso_of(skin, height, limbs);
-    const double reach = reach_of_feet(skin, height, limbs, torso.side.cross(Vec3::UnitZ()));
-    if (std::abs(reach) < LimbLimits::least_foot)
-        refuse(place, "no front: the feet reach as far to one side of the ankles as to the other");
-    if (reach < 0) {  // `side` runs from right to left when the front is side x up
+    const Vec3 front = torso.side.cross(Vec3::UnitZ());
+    const double feet = reach_of_feet(skin, height, limbs, front);
+    const double head = reach_of_head(skin, height, limbs, front);
+    const bool have_feet = std::abs(feet) > LimbLimits::least_foot;
+    if (!have_feet && std::abs(head) < LimbLimits::least_lean)
+        refuse(place, "no front: neither do the feet reach further to one side of the ankles, nor does the neck lean");
+    if ((have_feet ? feet : head) < 0) {  // `side` runs from right to left when the front is side x up
         torso.side = -torso.side;
         swap_sides(limbs);
     }

@@ -27,7 +27,7 @@ struct Limbs {
 
 /// Finds the limbs of a body of any pose in which it stands, with z up: the tips of limbs are maxima of the geodesic
 /// distance from the crown, armpits and crotch are its saddles (Hilaga and others 2001, with the persistence of
-/// Edelsbrunner, Letscher and Zomorodian 2002). The feet tell the front.
+/// Edelsbrunner, Letscher and Zomorodian 2002). The feet tell the front; without feet, the neck, which leans to it.
 /// @param place  the body in the user's input, for messages
 /// @throws InputError that says what was not found if this is no body with two arms and two legs
 Limbs find_limbs(const Skin& skin, const InputPlace& place);

@@ -17,7 +17,7 @@ struct LevelWindows {
     static constexpr double bust_below_armpit = 0.075, bust_above_armpit = 0.03, chest_below_armpit = 0.025;
     static constexpr double neck_above_armpit = 0.03, neck_below_crown = 0.085;
     static constexpr double underbust_bend = 0.01;  // of the bust girth; less than that is no bend
-    static constexpr double neck_share = 0.75;      // of the head's girth
+    static constexpr double neck_share = 0.9;       // of the head's girth
 };
 
 using Sections = std::vector<TrunkSection>;
@@ -88,7 +88,8 @@ void find_bust(const Anatomy& body, const Sections& sections, double armpit, Tru
     for (const TrunkSection& s : below) curve.emplace_back(s.z, s.girth);
     // Girths and heights have the same scale here: both in metres.
     const Bend bend = find_bend(curve, BendSide::right);
-    if (bend.depth > LevelWindows::underbust_bend * curve.back().y()) levels.underbust = curve[bend.point].x();
+    if (bend.point >= 0 && bend.depth > LevelWindows::underbust_bend * curve.back().y())
+        levels.underbust = curve[bend.point].x();
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "host/examine/file_mesh.hpp"
 #include "host/examine/sizes.hpp"
 #include "host/scene/body_model.hpp"
-#include "io/mesh/axes.hpp"
 #include "io/mesh/mesh_obj.hpp"
 #include "io/number_text.hpp"
 #include "io/scene/presets.hpp"
@@ -32,13 +31,13 @@ void examine_size(const TriangleMesh& mesh, const BodySource& body)
     const Vec3 size = box.sizes();
     const InputPlace place{body.source, 0, 0, {}};
     if (size.z() < lying * size.maxCoeff()) {
-        int longest = 0, in_file = 0;
-        size.maxCoeff(&longest);
-        z_up_from(body.up_axis).row(longest).cwiseAbs().maxCoeff(&in_file);
+        std::string others;  // both: with the arms spread a body is as wide as high
+        for (const std::string_view axis : words_of<Axis>())
+            if (axis != word_of(body.up_axis)) others += fmt::format("{}--up {}", others.empty() ? "" : " or ", axis);
         throw InputError(place,
                          fmt::format("a body that lies: {:.3g} x {:.3g} m seen from above, {:.3g} m high", size.x(),
                                      size.y(), size.z()),
-                         fmt::format("a body that stands; --up {} if that is up in the file", word_of(Axis(in_file))));
+                         fmt::format("a body that stands; {} if that is up in the file", others));
     }
     if (!(size.z() >= smallest && size.z() <= largest))
         throw InputError(place, fmt::format("a body {:.3g} m high", size.z()),

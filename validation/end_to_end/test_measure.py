@@ -82,7 +82,7 @@ class Measure(Scratch):
         same = sum(a == b for a, b in zip(before["parts"], after["parts"]))
         self.assertGreater(same, 0.995 * len(points))
         for arguments, message in (((other, "--up", "y"), "a body 170 m high"),
-                                   ((self.path("out/body.obj"), "--up", "y"), "--up z if that is up")):
+                                   ((self.path("out/body.obj"), "--up", "y"), "--up x or --up z if that is up")):
             refused = call("measure", *arguments)
             self.assertEqual((refused.returncode, refused.stdout), (2, ""))
             self.assertIn(message, refused.stderr)

@@ -183,6 +183,20 @@ TEST_CASE("measures do not depend on where the body stands and which way it face
         CHECK((at(found, landmark.name) - (turn * landmark.position + shift)).norm() < 0.01);
 }
 
+TEST_CASE("a body without feet faces the way in which its neck leans", "[body]")
+{
+    const Eigen::AngleAxisd turn(-0.7, Vec3::UnitZ());
+    TriangleMesh mesh = mannequin();
+    mesh.parts.clear();
+    std::erase_if(mesh.faces, [&](const Face& face) { return mesh.vertices[face[0]].z() < 0.12; });
+    for (Vec3& x : mesh.vertices) x = turn * x;
+    const BodyMeasures found = measure_body(mesh, here);
+    const Vec3 front = found.frame.to_file(-Vec3::UnitY()) - found.frame.to_file(Vec3::Zero());
+    CHECK((front - turn * -Vec3::UnitY()).norm() < 0.02);
+    CHECK(girth(found, "hips") == Approx(girth(measured(), "hips")).epsilon(0.005));
+    CHECK(std::ranges::find(found.missing, "ankle") != found.missing.end());
+}
+
 TEST_CASE("a body and its mirror image have the same girths", "[body]")
 {
     TriangleMesh mirrored = mannequin();
@@ -191,6 +205,34 @@ TEST_CASE("a body and its mirror image have the same girths", "[body]")
     const BodyMeasures found = measure_body(mirrored, here);
     for (const BodyMeasure& there : measured().girths)
         CHECK(girth(found, there.name.c_str()) == Approx(there.value).epsilon(0.005));
+}
+
+TEST_CASE("one raised arm does not turn a body", "[body]")
+{
+    MannequinMeasures asked;
+    asked.arm_angle = 60;
+    TriangleMesh mesh = make_mannequin(asked);
+    const std::vector<Vec3> up = mannequin_with_arms(mesh, asked, 10);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+        if (mesh.vertices[v].x() > 0) mesh.vertices[v] = up[v];
+    const BodyMeasures found = measure_body(mesh, here);
+    CHECK(std::abs(found.frame.azimuth) < 0.02);
+    CHECK(at(found, "left_wrist").z() > at(found, "right_wrist").z() + 0.3);
+    CHECK(girth(found, "bust") == Approx(girth(measured(), "bust")).epsilon(0.02));
+}
+
+TEST_CASE("over a belly the waist is the hollow of the back and the hips are the seat", "[body]")
+{
+    TriangleMesh mesh = mannequin();
+    for (Vec3& x : mesh.vertices) {
+        const double middle = std::exp(-std::pow((x.z() - 1.03) / 0.13, 2));
+        if (std::abs(x.x()) < 0.2 && x.y() < 0) x.y() *= 1 + 1.2 * middle;
+    }
+    const BodyMeasures found = measure_body(mesh, here);
+    CHECK(found.girth("waist")->where.starts_with("hollow of the back"));
+    CHECK(at(found, "waist_back").z() < at(found, "bust_back").z() - 0.08);
+    CHECK(at(found, "hips_back").z() < 0.95);
+    CHECK(girth(found, "waist") > 1.1 * girth(measured(), "waist"));
 }
 
 TEST_CASE("loose pieces beside a body are told and not measured", "[body]")
