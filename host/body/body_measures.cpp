@@ -110,13 +110,28 @@ private:
     {
         const TrunkLevels& levels = found_.levels;
         add_girth("neck", found_.shoulders.neck, "shortest around the neck");
-        add_girth("neck_base", found_.shoulders.neck_base, "where the shoulders rise into the neck, across its axis");
+        add_neck_base();
         add_level("bust", levels.bust, levels.bust_is_foremost ? "foremost of the chest" : "just below the armpits");
         add_level("underbust", levels.underbust, "bend of the girth below the bust");
         add_level("waist", levels.waist,
                   levels.waist_is_narrowest ? "narrowest of the trunk" : "hollow of the back, not narrowest");
         add_level("hips", levels.hips,
                   levels.hips_are_widest ? "widest above the crotch" : "hindmost of the seat, below a belly");
+    }
+
+    void add_neck_base()
+    {
+        const auto& [front, back] = found_.shoulders.neck_base;
+        if (front.points.empty() || back.points.empty()) {
+            result_.missing.push_back("neck_base");
+            return;
+        }
+        const double across = (found_.shoulders.neck_side[0] - found_.shoulders.neck_side[1]).norm();
+        result_.girths.push_back({"neck_base",
+                                  front.length + back.length - 2 * across,
+                                  "over the sides of the neck, nape and hollow of the throat",
+                                  {in_file(front.points), in_file(back.points)},
+                                  true});
     }
 
     void add_limb_girths()
@@ -314,8 +329,7 @@ void refine_regions(Found& found)
             const Vec3 above = x - shoulders.neck_middle;
             if (above.z() - jaw_slope * above.y() > 0.015 * body.height)
                 region = BodyRegion::head;
-            else if ((x - 0.5 * (shoulders.neck_side[0] + shoulders.neck_side[1])).dot(shoulders.neck_axis) > 0 &&
-                     std::abs(x.x()) < neck_half)
+            else if (shoulders.above_neck_base(x) && std::abs(x.x()) < neck_half)
                 region = BodyRegion::neck;
             continue;
         }

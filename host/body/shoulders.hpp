@@ -10,10 +10,15 @@ struct Shoulders {
     Vec3 neck_middle = Vec3::Zero();  ///< Of the narrowest section of the neck.
     Vec3 neck_axis = Vec3::UnitZ();   ///< Unit, upwards.
     Tape neck;                        ///< The shortest one across the axis.
-    Tape neck_base;                   ///< Through the points of the neck at the sides, across the axis.
-    Vec3 neck_front = Vec3::Zero(), neck_back = Vec3::Zero();  ///< Of its base, in the middle.
-    std::array<Vec3, 2> neck_side;                             ///< Where the shoulder rises into the neck.
-    std::array<Vec3, 2> shoulder;                              ///< Top of the section through the armpit.
+    std::array<Vec3, 2> neck_side;    ///< Where the shoulder rises into the neck.
+    Vec3 neck_front = Vec3::Zero();   ///< Hollow of the throat.
+    Vec3 neck_back = Vec3::Zero();    ///< In the middle of the back, level with the sides.
+    /// {front, back}: around each half and straight across from side to side; empty where a half is not found.
+    std::array<Tape, 2> neck_base;
+    std::array<Vec3, 2> shoulder;  ///< Top of the section through the armpit.
+
+    /// Returns whether a point lies above the neck's base, which bends along the line between its sides.
+    bool above_neck_base(const Vec3& point) const;
 };
 
 /// @param neck_level  height of the shortest horizontal tape around the neck [m]

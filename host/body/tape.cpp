@@ -38,6 +38,16 @@ Vec3 Tape::middle() const
     return all > 0 ? Vec3(sum / all) : points[0];
 }
 
+std::vector<Vec3> Tape::sides() const
+{
+    std::vector<Vec3> ends;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        ends.push_back(points[k]);
+        ends.push_back(points[(k + 1) % points.size()]);
+    }
+    return ends;
+}
+
 std::vector<Vec3> crossings(const std::vector<Vec3>& points, const Vec3& point, const Vec3& normal)
 {
     std::vector<Vec3> found;

@@ -17,14 +17,15 @@ struct Tape {
     double length = 0;         ///< [m]
     bool over_hole = false;    ///< The section runs through a hole of the skin: the tape bridges it.
 
-    Vec3 middle() const;  ///< Of the enclosed area.
+    Vec3 middle() const;              ///< Of the enclosed area.
+    std::vector<Vec3> sides() const;  ///< Both ends of each side, as crossings() takes them.
 };
 
 /// Lays a tape around points of a plane.
 Tape tape_over(const std::vector<Vec3>& points, const Vec3& point, const Vec3& normal);
 
-/// Returns the points in which a section meets a second plane.
-/// @param points  of section()
+/// Returns the points in which lines meet a plane.
+/// @param points  both ends of each line, as of section()
 std::vector<Vec3> crossings(const std::vector<Vec3>& points, const Vec3& point, const Vec3& normal);
 
 Tape tape_around(const Skin& skin, const FaceMask& mask, const Vec3& point, const Vec3& normal);
