@@ -26,6 +26,7 @@ struct Anatomy {
     Skin skin;  ///< In the body's own frame: it faces -y, left is +x, the ground is z = 0.
     Limbs limbs;
     double height = 0;                   ///< [m]
+    Vec3 crotch_point = Vec3::Zero();    ///< Where the legs meet [m].
     double crotch = 0;                   ///< Its z [m].
     std::array<double, 2> shoulders;     ///< |x| of the sagittal plane in which each arm begins [m].
     std::array<Vec3, 2> armpits;         ///< [m]

@@ -195,7 +195,7 @@ private:
         add_level_landmarks("underbust", levels.underbust);
         add_level_landmarks("waist", levels.waist);
         add_level_landmarks("hips", levels.hips);
-        add_landmark("crotch", body_.at(limbs.crotch));
+        add_landmark("crotch", body_.crotch_point);
         add_limb_landmarks("wrist", found_.limbs.wrist);
         add_limb_landmarks("knee", found_.limbs.knee);
         add_limb_landmarks("ankle", found_.limbs.ankle);

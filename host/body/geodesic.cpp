@@ -31,8 +31,8 @@ double distance_through(const Vec3& a, const Vec3& b, const Vec3& c, double from
 
 std::vector<double> geodesic_distances(const Skin& skin, const std::vector<GeodesicSource>& sources)
 {
-    std::vector<double> distance(skin.vertices.size(), std::numeric_limits<double>::infinity());
-    std::vector<char> settled(skin.vertices.size());
+    std::vector<double> distance(skin.smooth.size(), std::numeric_limits<double>::infinity());
+    std::vector<char> settled(skin.smooth.size());
     using Waiting = std::pair<double, int>;
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
     const auto offer = [&](int vertex, double value) {
@@ -50,7 +50,7 @@ std::vector<double> geodesic_distances(const Skin& skin, const std::vector<Geode
             const Face& face = skin.faces[f];
             const int k = face[0] == v ? 0 : face[1] == v ? 1 : 2;
             const int one = face[(k + 1) % 3], two = face[(k + 2) % 3];
-            const Vec3 &x = skin.vertices[v], &y = skin.vertices[one], &z = skin.vertices[two];
+            const Vec3 &x = skin.smooth[v], &y = skin.smooth[one], &z = skin.smooth[two];
             offer(one, settled[two] ? distance_through(x, z, y, reached, distance[two]) : reached + (y - x).norm());
             offer(two, settled[one] ? distance_through(x, y, z, reached, distance[one]) : reached + (z - x).norm());
         }

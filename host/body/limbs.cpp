@@ -87,14 +87,14 @@ void examine_heights(const Skin& skin, const Extent& height, const Roles& roles,
 {
     const double crotch = height.share(height_of(skin, roles.crotch));
     if (crotch < LimbLimits::crotch_low || crotch > LimbLimits::crotch_high)
-        refuse(place, fmt::format("legs that meet at {:.0f} % of the height (expected {:.0f} to {:.0f} %)",
+        refuse(place, fmt::format("legs that meet at {:.1f} % of the height (expected {:.0f} to {:.0f} %)",
                                   100 * crotch, 100 * LimbLimits::crotch_low, 100 * LimbLimits::crotch_high));
     for (const Branch& arm : roles.arms) {
         if (arm.saddle < 0) refuse(place, "no armpits: the limbs at the sides are the longest");
         const double armpit = height.share(height_of(skin, arm.saddle));
         if (armpit < LimbLimits::armpit_low || armpit > LimbLimits::armpit_high || armpit < crotch)
             refuse(place,
-                   fmt::format("an arm that meets the trunk at {:.0f} % of the height (expected {:.0f} to {:.0f} %)",
+                   fmt::format("an arm that meets the trunk at {:.1f} % of the height (expected {:.0f} to {:.0f} %)",
                                100 * armpit, 100 * LimbLimits::armpit_low, 100 * LimbLimits::armpit_high));
     }
 }

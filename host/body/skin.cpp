@@ -107,6 +107,38 @@ std::vector<OpenEdge> rims_of(const Skin& skin)
     return rims;
 }
 
+// Moves every vertex but those of rims towards the mean of its neighbours, by a part of the way.
+void relax(Skin& skin, const std::vector<char>& fixed, double part)
+{
+    std::vector<Vec3> moved = skin.smooth;
+    for (int v = 0; v < int(moved.size()); ++v) {
+        if (fixed[v]) continue;
+        Vec3 sum = Vec3::Zero();
+        int count = 0;  // each neighbour counts once for each common face, so twice
+        for (const int f : skin.faces_of(v))
+            for (const int near : skin.faces[f]) {
+                if (near == v) continue;
+                sum += skin.smooth[near];
+                ++count;
+            }
+        moved[v] += part * (sum / count - skin.smooth[v]);
+    }
+    skin.smooth = std::move(moved);
+}
+
+// Source: Taubin 1995 (A signal processing approach to fair surface design), with his factors.
+void smooth_out_noise(Skin& skin)
+{
+    constexpr int rounds = 10;  // 3 mm of noise on edges of 7 mm then lengthens arms by 4 % instead of 25 %
+    std::vector<char> fixed(skin.vertices.size());
+    for (const OpenEdge& edge : skin.rims) fixed[edge.from] = fixed[edge.to] = 1;
+    skin.smooth = skin.vertices;
+    for (int round = 0; round < rounds; ++round) {
+        relax(skin, fixed, 0.5);
+        relax(skin, fixed, -0.53);
+    }
+}
+
 }  // namespace
 
 Skin make_skin(const TriangleMesh& mesh)
@@ -126,6 +158,7 @@ Skin make_skin(const TriangleMesh& mesh)
     for (const Face& face : skin.faces)
         for (const int v : face) skin.area[v] += area_of(skin.vertices, face) / 3;
     skin.rims = rims_of(skin);
+    smooth_out_noise(skin);
     return skin;
 }
 

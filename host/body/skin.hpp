@@ -16,6 +16,7 @@ struct OpenEdge {
 /// largest area is kept; eyes, lashes and hair that lie loose around it are no part of it.
 struct Skin {
     std::vector<Vec3> vertices;  ///< [m]
+    std::vector<Vec3> smooth;    ///< The same without noise, for ways over the skin, which noise makes longer [m].
     std::vector<Face> faces;
     std::vector<int> of_given;       ///< Vertex for each one of the mesh that was given; -1: it is no part of the skin.
     std::vector<double> area;        ///< A third of the faces around each vertex [m^2].

@@ -12,7 +12,8 @@ namespace {
 struct LevelWindows {
     static constexpr double step = 0.0025;
     static constexpr double waist_above_crotch = 0.10, waist_below_armpit = 0.045;
-    static constexpr double narrowest_above_hollow = 0.04;  // 0.02 on bodies without a belly
+    // Without a belly the waist lies 0.02 above the hollow of the back, where the girth is 1.025 times as large.
+    static constexpr double narrowest_above_hollow = 0.03, belly = 1.05;
     static constexpr double hips_above_crotch = 0.01, hips_below_belly = 0.11;
     static constexpr double bust_below_armpit = 0.075, bust_above_armpit = 0.03, chest_below_armpit = 0.025;
     static constexpr double neck_above_armpit = 0.03, neck_below_crown = 0.085;
@@ -49,6 +50,13 @@ std::optional<double> inner_minimum(const Sections& window, const Value& value)
     return level;
 }
 
+double girth_at(const Sections& sections, double z)
+{
+    for (const TrunkSection& section : sections)
+        if (section.z >= z) return section.girth;
+    return 0;
+}
+
 void find_waist(const Anatomy& body, const Sections& sections, double armpit, TrunkLevels& levels)
 {
     const double h = body.height;
@@ -56,9 +64,10 @@ void find_waist(const Anatomy& body, const Sections& sections, double armpit, Tr
                                     armpit - LevelWindows::waist_below_armpit * h);
     const std::optional<double> narrowest = inner_minimum(window, [](const TrunkSection& s) { return s.girth; });
     const std::optional<double> hollow = inner_minimum(window, [](const TrunkSection& s) { return s.back; });
-    // Over a large belly the narrowest place lies under the chest.
-    levels.waist_is_narrowest =
-        narrowest && !(hollow && *narrowest - *hollow > LevelWindows::narrowest_above_hollow * h);
+    // Over a belly the narrowest place lies under the chest, and the girth grows from there to the hollow.
+    const bool belly = narrowest && hollow && *narrowest - *hollow > LevelWindows::narrowest_above_hollow * h &&
+                       girth_at(window, *hollow) > LevelWindows::belly * girth_at(window, *narrowest);
+    levels.waist_is_narrowest = narrowest && !belly;
     levels.waist = levels.waist_is_narrowest ? narrowest : hollow;
 }
 

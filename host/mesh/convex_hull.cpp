@@ -2,12 +2,17 @@
 
 #include <algorithm>
 
+#include "host/mesh/exact_orientation.hpp"
+
 namespace selvage {
 namespace {
 
-double cross(const Vec2& o, const Vec2& a, const Vec2& b)
+// Exact, since sections of meshes have points that nearly lie on each other: rounding would leave inner ones on the
+// hull.
+bool turns_left(const Vec2& o, const Vec2& a, const Vec2& b)
 {
-    return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x();
+    const auto in_space = [](const Vec2& point, double z) { return Vec3(point.x(), point.y(), z); };
+    return exact_orientation(in_space(o, 0), in_space(a, 0), in_space(b, 0), in_space(o, 1)) > 0;
 }
 
 }  // namespace
@@ -22,7 +27,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points)
     for (int side = 0; side < 2; ++side) {
         const std::size_t base = hull.size();
         for (const Vec2& point : points) {
-            while (hull.size() > base + 1 && cross(hull[hull.size() - 2], hull.back(), point) <= 0) hull.pop_back();
+            while (hull.size() > base + 1 && !turns_left(hull[hull.size() - 2], hull.back(), point)) hull.pop_back();
             hull.push_back(point);
         }
         hull.pop_back();  // the first of the next side
