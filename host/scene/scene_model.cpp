@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "host/collision/parted_body.hpp"
 #include "host/collision/thin_body.hpp"
 #include "host/examine/cloth_start.hpp"
 #include "host/examine/pattern.hpp"
@@ -222,6 +223,34 @@ void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& 
     }
 }
 
+// How far cloth may go beyond where it starts while it is sewn [m]: chosen by hand.
+constexpr double way_of_sewing = 0.05;
+
+// Lets a garment that is sewn around a body pass between parts of it that touch.
+void make_room(const Scene& scene, SceneModel& model)
+{
+    if (!model.body_between || !scene.contact.body || scene.seams.room == 0) return;
+    std::vector<Body>& bodies = model.cloth_model.bodies;
+    Box region = box_of(model.cloth_model.cloth.positions);
+    region.min() -= Vec3::Constant(way_of_sewing);
+    region.max() += Vec3::Constant(way_of_sewing);
+    std::vector<Body> parted = parted_bodies(bodies, scene.seams.room, region);
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        double most = 0;
+        for (std::size_t v = 0; v < bodies[b].mesh.vertices.size(); ++v)
+            most = std::max(most, (parted[b].mesh.vertices[v] - bodies[b].mesh.vertices[v]).norm());
+        if (most == 0) continue;
+        model.findings.push_back({"parted_body",
+                                  {},
+                                  fmt::format("parts of the body `{}` touch each other or nearly: to let cloth pass "
+                                              "between them they give way by up to {:.1f} mm (seams.room)",
+                                              bodies[b].name, 1000 * most),
+                                  {},
+                                  Severity::note});
+    }
+    bodies = std::move(parted);
+}
+
 }  // namespace
 
 SceneModel build_scene_model(const Scene& scene)
@@ -243,6 +272,7 @@ SceneModel build_scene_model(const Scene& scene)
         append_findings(result.findings, examine_pattern(pattern, result.cloth_model.cloth, scene.garment.resolution));
     result.sews = !seams_are_closed(result.cloth_model.cloth);
     result.body_between = result.sews && seams_meet_bodies(result.cloth_model.cloth, result.cloth_model.bodies);
+    make_room(scene, result);
     result.edge_length = typical_edge(result.cloth_model.cloth);
     find_limits(scene, result);
     append_findings(result.findings, examine_scene(scene, result.cloth_model, result.edge_length));

@@ -53,7 +53,11 @@ FILES = {"body.obj": tetrahedron(0.2), "inches.obj": tetrahedron(8),
          "turned.json": pattern((20, 30, 40)),
          "loose.obj": "v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nv 0.2 0 0\nv 0.2 0.2 0\nv 0 0.2 0\nf 1 2 3\nf 4 5 6\n",
          "touching.obj": tetrahedron(0.2) + "v 0 0 0.2\nv 0.1 0 0.3\nv 0 0.1 0.3\nv 0 0 0.4\n"
-                         "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n"}
+                         "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n",
+         "near.obj": tetrahedron(0.2) + "".join(f"v {x} {y} {z}\n" for x, y, z in [
+            (0.05, 0.05, -0.01), (0.1, 0.05, -0.1), (0.05, 0.1, -0.1), (0, 0.05, -0.1), (0.05, 0, -0.1),
+            (0.05, 0.05, -0.2)]) + "".join(
+                f"f 5 {a} {b}\nf 10 {b} {a}\n" for a, b in [(6, 7), (7, 8), (8, 9), (9, 6)])}
 
 # Scenes in which keys count ----------------------------------------------
 
@@ -108,6 +112,7 @@ TURNED_PANEL = {**SEW, "garment": {"pattern": "turned.json", "resolution": 0.02}
 SLOWLY = {**SEW, "seams": {"force_limit": 0.01}}
 BODY_BETWEEN = {**SEW, "body": [{"shape": "mesh", "mesh": "body.obj", "scale": 0.15,
                                  "center": [0.103, -1.021, 0.04]}]}
+PARTS_NEAR = {**BODY_BETWEEN, "body": [{**BODY_BETWEEN["body"][0], "mesh": "near.obj"}]}
 BUILTIN = {"garment": {"pattern": "builtin:vest", "resolution": 0.1}, "seams": {"max_time": 0.1},
            "solver": {"until": 0.01}, "output": dict(OUTPUT)}
 MESH = scene(sheet=[{"shape": "mesh", "mesh": "sheet.obj", "center": [0, 0, 1]}])
@@ -165,7 +170,7 @@ CASES = {
                 "hysteresis": (scene(HANG, sheet=[{"width": 0.2, "height": 0.2, "resolution": 5,
                                                   "fabric": "matsudaira_cotton_broad"}]), True)},
     "seams": {"stiffness": (SEW, 1e3), "force_limit": (SEW, 0.5), "stiffening": (SEW, 1), "closed": (SLOWLY, 0.01),
-              "max_time": (SLOWLY, 0.02), "thin": (BODY_BETWEEN, 0.5)},
+              "max_time": (SLOWLY, 0.02), "thin": (BODY_BETWEEN, 0.5), "room": (PARTS_NEAR, 0)},
     "pins": {"sheet": (DROP, "corners"), "vertices": (DROP, "3, 7")},
     "pins.hold": {"panel": (scene(sheet=[{"resolution": 3}, {"resolution": 3, "center": [0, 0, 2]}],
                                   pins={"hold": [{"panel": "sheet[0]", "group": "corners"}]}), "sheet[1]"),
