@@ -10,9 +10,12 @@ namespace {
 
 // Chosen on trousers and jumpsuits on three bodies whose thighs touch or overlap by up to 4 mm.
 struct PartingTuning {
-    static constexpr double deepest = 0.01;   // overlap that is found [m]
-    static constexpr double facing = -0.3;    // cosine between a normal and that of what it meets, at most: 107 degrees
-    static constexpr double give = 0.15;      // of the radius of the ball within, at most: thighs 10 mm, fingers 1 mm
+    static constexpr double deepest = 0.01;  // overlap that is found [m]
+    static constexpr double facing = -0.3;   // cosine between a normal and that of what it meets, at most: 107 degrees
+    static constexpr double give = 0.15;     // of the radius of the ball within, at most: thighs 10 mm, fingers 1 mm
+    // Part of a body's height below which parts give way: legs and seat. Lips, eyes and ears that gave way tangled a
+    // thin head, and a hoody was never sewn on it.
+    static constexpr double legs = 0.55;
     static constexpr int rounds = 3;          // of giving way: surfaces do not move straight towards each other
     static constexpr int smooth_rounds = 6;   // in which what lies around follows
     static constexpr int fill_rounds = 20;    // in which the balls where parts overlap become as large as those around
@@ -78,8 +81,12 @@ std::vector<Body> parted_bodies(const std::vector<Body>& bodies, double room, co
 {
     std::vector<Body> parted = bodies;
     for (Body& body : parted)
-        if (body.kind == Body::Kind::mesh && !body.motion && !body.mesh.vertices.empty())
-            body.mesh.vertices = parted_vertices(body.mesh, room, region);
+        if (body.kind == Body::Kind::mesh && !body.motion && !body.mesh.vertices.empty()) {
+            const Box whole = box_of(body.mesh.vertices);
+            Box legs = region;
+            legs.max().z() = std::min(legs.max().z(), whole.min().z() + PartingTuning::legs * whole.sizes().z());
+            if (!legs.isEmpty()) body.mesh.vertices = parted_vertices(body.mesh, room, legs);
+        }
     return parted;
 }
 

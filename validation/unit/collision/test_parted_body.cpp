@@ -18,9 +18,11 @@ Body two_balls(double apart)
     Body body;
     body.mesh = sphere_mesh({-radius - 0.5 * apart, 0, 0}, radius, 4);
     const TriangleMesh other = sphere_mesh({radius + 0.5 * apart, 0, 0}, radius, 4);
+    body.mesh.vertices.emplace_back(-1, 0, 1);  // the balls are in the lower half
     const int first = int(body.mesh.vertices.size());
     body.mesh.vertices.insert(body.mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
     for (const Face& face : other.faces) body.mesh.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+    body.mesh.vertices.emplace_back(1, 0, 1);
     return body;
 }
 
