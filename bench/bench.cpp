@@ -5,6 +5,7 @@
 #include "bench/suites/broad_phase.hpp"
 #include "bench/suites/contact_cost.hpp"
 #include "bench/suites/kernels.hpp"
+#include "bench/suites/motion_map.hpp"
 #include "bench/suites/scaling.hpp"
 #include "bench/suites/skip.hpp"
 #include "bench/suites/stability.hpp"
@@ -24,7 +25,8 @@ const std::vector<Suite>& suites()
     static const std::vector<Suite> all = {{"kernels", bench_kernels},    {"broad-phase", bench_broad_phase},
                                            {"contact", bench_contact},    {"skip", bench_skip},
                                            {"scaling", bench_scaling},    {"work-precision", bench_work_precision},
-                                           {"stability", bench_stability}};
+                                           {"stability", bench_stability},
+                                           {"motion", bench_motion}};
     return all;
 }
 

@@ -194,6 +194,12 @@ Image draw_log_chart(const LogChart& chart, const std::vector<std::string>& name
     return image_of(picture);
 }
 
+std::string power_label(double value)
+{
+    const int power = int(std::floor(std::log10(value) + 1e-9));
+    return fmt::format("{:.0f}e{}", value / std::pow(10.0, power), power);
+}
+
 Image draw_cell_map(const CellMap& map, const std::vector<CellKind>& kinds, int width, int height)
 {
     cv::Mat picture = canvas(width, height);

@@ -38,6 +38,9 @@ struct CellKind {
     Rgb colour;
 };
 
+/// Writes 3e-4 instead of 0.0003 or 3e-04, for labels; a fraction of the leading digit is rounded away.
+std::string power_label(double value);
+
 /// Draws a table of cells with its labels.
 Image draw_cell_map(const CellMap& map, const std::vector<CellKind>& kinds, int width, int height);
 

@@ -33,7 +33,10 @@ void read_run(const std::string& path, ChildRun& run)
 {
     {
         const TrajectoryReader reader(path);
-        if (reader.frame_count() > 0) run.contacts = reader.scalars(reader.frame_count() - 1).contacts;
+        if (const int last = reader.frame_count() - 1; last >= 0) {
+            run.contacts = reader.scalars(last).contacts;
+            run.positions = reader.read_frame(last);
+        }
     }
     const Hdf5Reader file(path);
     if (!file.exists("/selvage/profile")) return;

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/geometry.hpp"
+
 namespace selvage {
 
 /// A temporary folder; the destructor removes it with everything in it.
@@ -27,6 +29,7 @@ struct ChildRun {
     double peak_memory_bytes = 0;     ///< Largest resident size.
     nlohmann::json summary;           ///< summary.json; null if the run left none.
     int contacts = 0;                 ///< Vertices in contact in the last frame of run.h5.
+    std::vector<Vec3> positions;      ///< Per point of the last frame of run.h5 [m].
     std::vector<std::string> phases;  ///< Path of every phase; empty unless the run was profiled.
     std::vector<double> self_s;       ///< Time of each phase without the phases within it.
     std::int64_t launches = 0;        ///< Kernel launches of all phases; 0 unless the run was profiled.

@@ -46,30 +46,26 @@ void SceneRunner::move(Phase& phase, const RunSetting& setting, RunResult& resul
         result.linear_iterations += event.linear_iterations;
         return true;
     };
+    if (setting.step_error > 0) {
+        steps.adaptive = true;
+        steps.error = setting.step_error;
+    }
+    EquilibriumOptions options;
+    options.step = steps;
+    options.integrator = integrator.get();
+    options.tolerance = setting.tolerance;
+    options.step_tolerance = setting.step_tolerance;
+    options.max_time = scene_.solver.max_time;
+    options.newton_iterations = scene_.solver.newton_iterations;
+    DrapeProgress progress;
     if (scene_.until().equilibrium) {
-        EquilibriumOptions options;
-        options.step = steps;
-        options.integrator = integrator.get();
-        options.tolerance = setting.tolerance;
-        options.max_time = scene_.solver.max_time;
-        options.newton_iterations = scene_.solver.newton_iterations;
-        DrapeProgress progress;
         result.finished = drape_to_equilibrium(phase, options, progress, count) == PhaseEnd::reached;
         if (!result.finished) result.message = "not at rest within solver.max_time";
         return;
     }
     const double until = scene_.until().time;
-    StepControl control(phase, *integrator, steps);
-    NewtonOptions newton;
-    newton.max_iterations = setting.iterations > 0 ? setting.iterations : scene_.solver.newton_iterations;
-    newton.tolerance = setting.tolerance;
-    newton.velocity_tolerance = setting.velocity_tolerance;
-    for (double time = 0; time < until - 1e-9;) {
-        time += control.advance(until - time, newton, setting.iterations == 0);
-        count({time, control.taken(), control.report().iterations, control.report().linear_iterations});
-    }
-    result.retries = control.retries();
-    result.finished = true;
+    // One frame, so that no step is cut short for it.
+    result.finished = drape_until(phase, options, until, until, progress, count) == PhaseEnd::reached;
 }
 
 RunResult SceneRunner::run(const RunSetting& setting)

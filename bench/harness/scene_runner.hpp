@@ -13,11 +13,10 @@ namespace selvage {
 /// The settings in which the runs of one scene differ.
 struct RunSetting {
     std::string integrator = "implicit_euler";
-    double step = 0.02;             ///< [s]
-    double tolerance = 1e-2;        ///< Of the Newton iterations of a step, or of the equilibrium [1].
-    double velocity_tolerance = 0;  ///< See NewtonOptions [m/s].
-    /// Newton iterations per step, accepted even if unconverged; 0: until the tolerance is met.
-    int iterations = 0;
+    double step = 0.02;            ///< [s]
+    double tolerance = 1e-2;       ///< Of the equilibrium [1].
+    double step_tolerance = 1e-2;  ///< Acceleration that a step of a motion may leave to find, over gravity [1].
+    double step_error = 0;         ///< Adaptive steps err by so much each [m]; 0: steps are fixed.
     bool float_solves = false;
     bool refuse_unstable = true;  ///< Explicit steps above the stability limit end the run.
 };
@@ -27,7 +26,7 @@ struct RunResult {
     std::vector<Vec3> positions;  ///< At the end, per cloth vertex [m].
     double wall = 0;              ///< Of the steps alone, without meshing and allocation [s].
     double cpu = 0;               ///< Of the same by thread_seconds() [s].
-    int steps = 0, newton_iterations = 0, linear_iterations = 0, retries = 0;
+    int steps = 0, newton_iterations = 0, linear_iterations = 0;
     bool finished = false;  ///< Reached the end, or equilibrium.
     std::string message;    ///< Why not.
 };

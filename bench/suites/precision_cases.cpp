@@ -85,25 +85,28 @@ void add_motions(const IntegratorInfo& info, double until, double limit, int mos
         }
         return;
     }
-    struct Iterations {
-        double tolerance, velocity_tolerance;
-        int most;
-    };
-    for (int steps = 4; steps <= most_steps; steps *= 2)
-        for (const Iterations& it : {Iterations{1e-2, 3e-2, 1}, Iterations{1e-2, 3e-2, 3}, Iterations{1e-2, 3e-2, 0},
-                                     Iterations{1e-4, 1e-3, 0}})
-            for (bool single : {true, false}) {
-                if (!single && (quick || it.tolerance > 1e-3)) continue;
-                RunSetting setting = reference_setting(std::string(info.name), until / steps);
-                setting.tolerance = it.tolerance;
-                setting.velocity_tolerance = it.velocity_tolerance;
-                setting.iterations = it.most;
-                setting.float_solves = single;
-                to.push_back(setting);
-            }
+    for (double tolerance : quick ? std::vector<double>{1e-2} : std::vector<double>{1e-1, 1e-2, 1e-3}) {
+        RunSetting setting = reference_setting(std::string(info.name), until);
+        setting.step_tolerance = tolerance;
+        setting.float_solves = tolerance > 1e-3;
+        for (int steps = 4; steps <= most_steps; steps *= 2) {
+            setting.step = until / steps;
+            to.push_back(setting);
+        }
+        setting.step = until / 4;
+        for (double error : {1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6}) {
+            setting.step_error = error;
+            if (info.has_error_estimate()) to.push_back(setting);
+        }
+    }
 }
 
 }  // namespace
+
+std::string method_name(std::string_view integrator, bool adaptive)
+{
+    return std::string(integrator) + (adaptive ? ", adaptive" : "");
+}
 
 std::vector<PrecisionScene> precision_scenes(const std::string& name)
 {
@@ -117,6 +120,19 @@ std::vector<PrecisionScene> precision_scenes(const std::string& name)
          "Stiff strip of canvas, clamped and let go, 0.2 s",
          "builtin:cantilever",
          {"sheet.width=0.2", "sheet.height=0.1", "sheet.resolution=41", "sheet.fabric=canvas", "solver.until=0.2"}},
+        {"pendulum",
+         "Stiff sheet of 0.2 m swinging from one edge, 0.2 s",
+         "builtin:hanging",
+         {"sheet.width=0.2", "sheet.height=0.2", "sheet.resolution=17", "sheet.fabric=leather", "pins.sheet=top_edge",
+          "solver.until=0.2"}},
+        {"card",
+         "Stiff card leaning on a floor falls over, 0.1 s",
+         "builtin:stress_corner",
+         {"sheet.width=0.063", "sheet.height=0.088", "sheet.resolution=9", "sheet.fabric=leather",
+          "sheet.rotation=[0,-65,0]", "sheet.center=[0,0,0.0304]", "body.friction=0", "solver.until=0.1"},
+         false,
+         0,
+         1024},
         {"sphere",
          "Sheet of 1 m falling on a sphere, 0.2 s",
          "builtin:sphere",

@@ -18,7 +18,8 @@ struct PrecisionScene {
 
 /// One run, which is one point of the diagram.
 struct PrecisionPoint {
-    std::string scene, integrator;
+    std::string scene;
+    std::string method;  ///< See method_name.
     RunSetting setting;
     RunResult result;
     double error = 0;  ///< See position_error [1].
@@ -33,6 +34,9 @@ struct PrecisionReference {
     double difference = 0;      ///< Difference between the two [1].
     double seconds = 0;         ///< Wall time of finding the reference [s].
 };
+
+/// Returns the name of an integrator with fixed or with adaptive steps.
+std::string method_name(std::string_view integrator, bool adaptive);
 
 /// Returns all scenes of the suite, or the named one.
 /// @throws InputError for an unknown name

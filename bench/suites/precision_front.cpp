@@ -8,16 +8,14 @@
 namespace selvage {
 namespace {
 
-PrecisionFront front_of(const std::vector<PrecisionPoint>& points, const std::string& scene,
-                        std::string_view integrator)
+PrecisionFront front_of(const std::vector<PrecisionPoint>& points, const std::string& scene, const std::string& method)
 {
     std::vector<std::pair<double, double>> found;
     for (const PrecisionPoint& point : points)
-        if (point.scene == scene && point.integrator == integrator && point.result.finished &&
-            std::isfinite(point.error))
+        if (point.scene == scene && point.method == method && point.result.finished && std::isfinite(point.error))
             found.emplace_back(point.result.cpu, std::max(point.error, 1e-12));
     std::sort(found.begin(), found.end());
-    PrecisionFront front{std::string(integrator), {}, {}};
+    PrecisionFront front{method, {}, {}};
     for (const auto& [seconds, error] : found) {
         if (!front.error.empty() && error >= front.error.back()) continue;
         front.seconds.push_back(seconds);
@@ -37,7 +35,7 @@ std::string winner(const std::vector<PrecisionFront>& all, double error)
             least = *time;
         }
     }
-    return best ? fmt::format("{} ({:.3g} s)", best->integrator, least) : "none";
+    return best ? fmt::format("{} ({:.3g} s)", best->method, least) : "none";
 }
 
 }  // namespace
@@ -45,10 +43,11 @@ std::string winner(const std::vector<PrecisionFront>& all, double error)
 std::vector<PrecisionFront> fronts(const std::vector<PrecisionPoint>& points, const std::string& scene)
 {
     std::vector<PrecisionFront> all;
-    for (const IntegratorInfo& info : integrators()) {
-        PrecisionFront front = front_of(points, scene, info.name);
-        if (!front.seconds.empty()) all.push_back(std::move(front));
-    }
+    for (const IntegratorInfo& info : integrators())
+        for (bool adaptive : {false, true}) {
+            PrecisionFront front = front_of(points, scene, method_name(info.name, adaptive));
+            if (!front.seconds.empty()) all.push_back(std::move(front));
+        }
     return all;
 }
 
@@ -68,7 +67,7 @@ std::string verdict_sentence(const std::vector<PrecisionFront>& all, const std::
     std::string sentence = fmt::format("{}: fastest at 10 % error is {}, at 1 % {}, at 0.1 % {}", scene,
                                        winner(all, 0.1), winner(all, 0.01), winner(all, 0.001));
     for (const PrecisionFront& front : all)
-        if (front.integrator == standard) {
+        if (front.method == standard) {
             const auto time = time_for_error(front, 0.01);
             sentence += time ? fmt::format("; the default, {}, takes {:.3g} s to 1 %", standard, *time)
                              : fmt::format("; the default, {}, does not reach 1 %", standard);

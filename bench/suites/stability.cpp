@@ -7,7 +7,6 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -16,6 +15,7 @@
 #include "bench/harness/chart.hpp"
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
+#include "bench/harness/side_by_side.hpp"
 #include "bench/suites/stability_cells.hpp"
 #include "host/solver/stepping/integrator.hpp"
 #include "io/atomic_file.hpp"
@@ -48,35 +48,27 @@ using Keep = std::function<void(const std::vector<StabilityResult>&)>;
 // by hand; not measured.
 constexpr std::size_t cells_between_files = 250;
 
-// Runs all cells, one per thread at a time, because a small sheet cannot keep several threads busy.
 std::vector<StabilityResult> run_cells(const std::vector<StabilityCell>& cells, const Keep& keep)
 {
     std::vector<std::optional<StabilityResult>> done(cells.size());
-    std::size_t count = 0, next = 0;
     std::mutex access;
-    const auto results = [&done] {
+    const auto results = [&] {
+        const std::lock_guard lock(access);
         std::vector<StabilityResult> all;
         for (std::size_t i = 0; i < done.size() && done[i]; ++i) all.push_back(*done[i]);
         return all;
     };
-    const auto work = [&] {
-        tbb::task_arena alone(1);
-        for (;;) {
-            std::unique_lock lock(access);
-            if (next == cells.size()) return;
-            const std::size_t i = next++;
-            lock.unlock();
-            StabilityResult result;
-            alone.execute([&] { result = run_cell(cells[i]); });
-            lock.lock();
+    run_side_by_side(
+        cells.size(),
+        [&](std::size_t i) {
+            StabilityResult result = run_cell(cells[i]);
+            const std::lock_guard lock(access);
             done[i] = std::move(result);
-            if (++count % 100 == 0) std::cerr << fmt::format("{} of {} cells\n", count, cells.size());
+        },
+        [&](std::size_t count) {
+            if (count % 100 == 0) std::cerr << fmt::format("{} of {} cells\n", count, cells.size());
             if (count % cells_between_files == 0) keep(results());
-        }
-    };
-    std::vector<std::thread> threads;
-    for (int t = 0; t < tbb::this_task_arena::max_concurrency(); ++t) threads.emplace_back(work);
-    for (std::thread& thread : threads) thread.join();
+        });
     return results();
 }
 
@@ -138,13 +130,6 @@ std::string row_of(const StabilityCell& cell)
     return fmt::format("x{:g} {} {}", cell.stiffness, name_of(cell.start), cell.damping > 0 ? "d" : "");
 }
 
-// Writes 3e-4 instead of 0.0003 or 3e-04.
-std::string step_label(double step)
-{
-    const int power = int(std::floor(std::log10(step) + 1e-9));
-    return fmt::format("{:.0f}e{}", step / std::pow(10.0, power), power);
-}
-
 CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integrator, int resolution,
                bool self_contact)
 {
@@ -155,7 +140,7 @@ CellMap map_of(const std::vector<StabilityResult>& cells, std::string_view integ
     for (const StabilityResult& r : cells) {
         const bool here = r.cell.integrator == integrator && r.cell.resolution == resolution;
         if (!here || r.cell.self_contact != self_contact) continue;
-        const std::string column = step_label(r.cell.step), row = row_of(r.cell);
+        const std::string column = power_label(r.cell.step), row = row_of(r.cell);
         if (std::find(map.columns.begin(), map.columns.end(), column) == map.columns.end())
             map.columns.push_back(column);
         if (map.rows.empty() || map.rows.back() != row) map.rows.push_back(row);

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 struct Measured {
     std::vector<PrecisionScene> scenes;
     std::vector<PrecisionReference> references;
-    std::vector<std::string> standards;  // per scene: the integrator that `drape` would choose by default
+    std::vector<std::string> standards;  // per scene: the method that `drape` would choose by default
     std::vector<PrecisionPoint> points;
 };
 
@@ -42,7 +42,7 @@ void measure_scene(const PrecisionScene& scene, bool quick, Measured& to)
     }
     for (const RunSetting& setting : precision_settings(scene, until, limit, quick)) {
         std::cerr << fmt::format("{}: {} step {:.3g} s\n", scene.name, setting.integrator, setting.step);
-        PrecisionPoint point{scene.name, setting.integrator, setting, {}, 0};
+        PrecisionPoint point{scene.name, method_name(setting.integrator, setting.step_error > 0), setting, {}, 0};
         // Each run has one thread and is judged by its CPU time. Small scenes gain little from more threads, and CPU
         // time does not depend on other programs.
         alone.execute([&] { point.result = runner.run(setting); });
@@ -60,12 +60,12 @@ void measure_scene(const PrecisionScene& scene, bool quick, Measured& to)
 std::string csv_text(const std::vector<PrecisionPoint>& points)
 {
     std::string text =
-        "scene,integrator,step_s,tolerance,still_m_per_s,most_iterations,precision,cpu_s,wall_s,position_error,steps,"
+        "scene,method,step_s,step_error_m,tolerance,step_tolerance,precision,cpu_s,wall_s,position_error,steps,"
         "newton_iterations,linear_iterations,finished\n";
     for (const PrecisionPoint& p : points)
         text +=
-            fmt::format("{},{},{:.6g},{:g},{:g},{},{},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", p.scene, p.integrator,
-                        p.setting.step, p.setting.tolerance, p.setting.velocity_tolerance, p.setting.iterations,
+            fmt::format("{},\"{}\",{:.6g},{:g},{:g},{:g},{},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", p.scene, p.method,
+                        p.setting.step, p.setting.step_error, p.setting.tolerance, p.setting.step_tolerance,
                         p.setting.float_solves ? "float" : "double", p.result.cpu, p.result.wall, p.error,
                         p.result.steps, p.result.newton_iterations, p.result.linear_iterations, int(p.result.finished));
     return text;
@@ -73,10 +73,10 @@ std::string csv_text(const std::vector<PrecisionPoint>& points)
 
 Json json_point(const PrecisionPoint& p)
 {
-    Json run = timed_run(
-        fmt::format("{}/{}/step:{:.3g}/tolerance:{:g}/iterations:{}/{}", p.scene, p.integrator, p.setting.step,
-                    p.setting.tolerance, p.setting.iterations, p.setting.float_solves ? "float" : "double"),
-        p.result.wall, p.result.cpu);
+    Json run = timed_run(fmt::format("{}/{}/step:{:.3g}/step_error:{:g}/tolerance:{:g}/step_tolerance:{:g}/{}", p.scene,
+                                     p.method, p.setting.step, p.setting.step_error, p.setting.tolerance,
+                                     p.setting.step_tolerance, p.setting.float_solves ? "float" : "double"),
+                         p.result.wall, p.result.cpu);
     run["position_error"] = std::isfinite(p.error) ? Json(p.error) : Json();
     run["steps"] = p.result.steps;
     run["newton_iterations"] = p.result.newton_iterations;
@@ -115,12 +115,13 @@ Json json_report(const Measured& measured)
 Image diagram(const Measured& measured)
 {
     std::vector<std::string> names;
-    for (const IntegratorInfo& info : integrators()) names.emplace_back(info.name);
+    for (const IntegratorInfo& info : integrators())
+        for (bool adaptive : {false, true}) names.push_back(method_name(info.name, adaptive));
     std::vector<Image> charts;
     for (const PrecisionScene& scene : measured.scenes) {
         LogChart chart{scene.title, "CPU time, one thread [s]", "position error / way", {}, 0.01, "1 %"};
         for (const PrecisionFront& front : fronts(measured.points, scene.name))
-            chart.series.push_back({front.integrator, front.seconds, front.error});
+            chart.series.push_back({front.method, front.seconds, front.error});
         charts.push_back(draw_log_chart(chart, names, 760, 460));
     }
     return tile(charts, std::min(2, int(charts.size())));
@@ -132,10 +133,10 @@ std::string table(const Measured& measured)
     for (std::size_t s = 0; s < measured.scenes.size(); ++s) {
         const PrecisionScene& scene = measured.scenes[s];
         text += reference_line(scene, measured.references[s]);
-        text += fmt::format("  {:<20} {:>12} {:>12} {:>12} {:>12}\n", "CPU seconds at error", "10 %", "3 %", "1 %",
+        text += fmt::format("  {:<28} {:>12} {:>12} {:>12} {:>12}\n", "CPU seconds at error", "10 %", "3 %", "1 %",
                             "0.1 %");
         for (const PrecisionFront& front : fronts(measured.points, scene.name)) {
-            text += fmt::format("  {:<20}", front.integrator);
+            text += fmt::format("  {:<28}", front.method);
             for (double error : {0.1, 0.03, 0.01, 0.001}) {
                 const auto time = time_for_error(front, error);
                 text += time ? fmt::format(" {:>12.4g}", *time) : fmt::format(" {:>12}", "-");

@@ -50,11 +50,11 @@ TEST_CASE("a garment is lost once it has fallen by a fifth of its height, or tou
     CHECK(find_lost_garment(only_floor, {0.6, 0.86, {true}}).empty());
 }
 
-TEST_CASE("steps are long for a motion where one errs by more than a twentieth of the cloth's extent")
+TEST_CASE("steps are long for a motion where one errs by more than three hundredths of the cloth's extent")
 {
     const std::vector<Vec3> positions{{0, 0, 1}, {0.3, 0, 1}, {0, 0.4, 1}};
     CHECK(find_long_steps({}, positions).empty());
-    CHECK(find_long_steps({.estimates = 3, .largest_error = 0.02, .error_time = 0.1}, positions).empty());
+    CHECK(find_long_steps({.estimates = 3, .largest_error = 0.0149, .error_time = 0.1}, positions).empty());
     const std::vector<Finding> found =
         find_long_steps({.estimates = 3, .largest_error = 0.04, .error_time = 0.1}, positions);
     REQUIRE(found.size() == 1);
