@@ -22,11 +22,10 @@ struct Suite {
 
 const std::vector<Suite>& suites()
 {
-    static const std::vector<Suite> all = {{"kernels", bench_kernels},    {"broad-phase", bench_broad_phase},
-                                           {"contact", bench_contact},    {"skip", bench_skip},
-                                           {"scaling", bench_scaling},    {"work-precision", bench_work_precision},
-                                           {"stability", bench_stability},
-                                           {"motion", bench_motion}};
+    static const std::vector<Suite> all = {{"kernels", bench_kernels},     {"broad-phase", bench_broad_phase},
+                                           {"contact", bench_contact},     {"skip", bench_skip},
+                                           {"scaling", bench_scaling},     {"work-precision", bench_work_precision},
+                                           {"stability", bench_stability}, {"motion", bench_motion}};
     return all;
 }
 

@@ -42,6 +42,12 @@ std::string name_of(const MotionModel& m)
     return fmt::format("{:g} mm, {} N/m, {} N m", 1000 * m.edge, power_label(m.stretch), power_label(m.bending));
 }
 
+// The same, short enough for a picture.
+std::string row_of(const MotionModel& m)
+{
+    return fmt::format("{:g} {} {}", 1000 * m.edge, power_label(m.stretch), power_label(m.bending));
+}
+
 void add_sheet(const MotionModel& model, MotionSurvey& survey)
 {
     const MotionReference reference = motion_reference(model);
@@ -101,10 +107,10 @@ CellMap map_of(const std::vector<MotionResult>& runs, std::string_view integrato
     CellMap map;
     map.title = integrator;
     map.column_label = "step [s]";
-    map.row_label = "edge, stretch, bending";
+    map.row_label = "edge [mm], stretch [N/m], bending [N m]";
     for (const MotionResult& r : runs) {
         if (r.cell.integrator != integrator) continue;
-        const std::string column = power_label(r.cell.step), row = name_of(r.cell.model);
+        const std::string column = power_label(r.cell.step), row = row_of(r.cell.model);
         if (std::find(map.columns.begin(), map.columns.end(), column) == map.columns.end())
             map.columns.push_back(column);
         if (map.rows.empty() || map.rows.back() != row) map.rows.push_back(row);

@@ -36,7 +36,11 @@ struct BlockPattern {
 /// Finds the pattern from the gather lists of an allocated and filled state.
 BlockPattern make_pattern(const State& state);
 
-enum class Preconditioner { block_jacobi, multigrid };
+enum class Preconditioner {
+    block_jacobi,
+    multigrid,
+    direct  ///< A sparse Cholesky factor of the whole matrix, for small cloth; plates and contacts add to it.
+};
 
 struct LinearOptions {
     Preconditioner preconditioner = Preconditioner::block_jacobi;

@@ -12,7 +12,8 @@ namespace selvage {
 namespace {
 
 /// Multigrid V-cycle on a hierarchy of interpolations with Galerkin coarse matrices P^T A P, Chebyshev smoothing over
-/// block Jacobi, and a sparse Cholesky solve at the coarsest level. Symmetric, so it preconditions conjugate gradients.
+/// block Jacobi, and a sparse Cholesky solve at the coarsest level, which is the finest where there is no other.
+/// Symmetric, so it preconditions conjugate gradients.
 /// Source: Tamstorf, Jones and McCormick 2015 for cloth; Adams and others 2003 for the smoother.
 class Multigrid {
 public:
@@ -23,9 +24,16 @@ public:
     /// Computes all coarse matrices and smoothers.
     /// @param rows      of the finest level that take part; the others are left alone as if they were pinned
     /// @param is_awake  per particle: 1 if it does; only read where not all do
-    void build(const BlockMatrix& finest, const Items& rows, const std::vector<char>& is_awake);
+    /// @param inv_mass  per particle: 0 if it is held, so that its row is one of the identity
+    void build(const BlockMatrix& finest, const Items& rows, const std::vector<char>& is_awake,
+               const std::vector<real>& inv_mass);
     /// Takes another finest matrix, which differs little, with the coarse ones as they are.
-    void refresh(const BlockMatrix& finest) { levels_[0].jacobi.build(levels_[0].rows, finest); }
+    void refresh(const BlockMatrix& finest)
+    {
+        if (!is_direct()) levels_[0].jacobi.build(levels_[0].rows, finest);
+    }
+    /// Whether the factor is that of the whole matrix.
+    bool is_direct() const { return levels_.size() == 1; }
     /// z = one V-cycle applied to r.
     void apply(const BlockMatrix& finest, const LinearVector& r, LinearVector& z);
     std::size_t bytes() const;
@@ -54,7 +62,7 @@ private:
     void select_rows(const Items& rows, const std::vector<char>& is_awake);
     static void coarse_matrix(const BlockMatrix& fine_matrix, const Level& fine, const Level& coarse_level,
                               BlockMatrix& coarse);
-    void factorise_coarsest();
+    void factorise_coarsest(const BlockMatrix& finest, const std::vector<real>& inv_mass);
     void estimate_eigenvalue(const BlockMatrix& matrix, Level& level);
     static block_smooth_args pass(const BlockMatrix& matrix, Level& level, const linear* b);
     void smooth(const BlockMatrix& matrix, Level& level, const linear* b, bool from_zero, linear* result = nullptr);
@@ -204,16 +212,26 @@ void Multigrid::coarse_matrix(const BlockMatrix& a, const Level& fine, const Lev
     });
 }
 
-void Multigrid::factorise_coarsest()
+void Multigrid::factorise_coarsest(const BlockMatrix& finest, const std::vector<real>& inv_mass)
 {
     const TraceScope scope("factorise_coarsest");
-    const BlockMatrix& a = levels_.back().matrix;
+    const BlockMatrix& a = matrix_of(finest, levels_.size() - 1);
+    const std::vector<char>& is_awake = levels_.back().is_awake;
+    const auto stands_alone = [&](int row) {
+        return is_direct() && (inv_mass[row] == 0 || (!is_awake.empty() && !is_awake[row]));
+    };
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(9 * a.column.size());
     for (int row = 0; row < a.rows(); ++row)
-        for (int k = a.row_begin[row]; k < a.row_begin[row + 1]; ++k)
-            for (int c = 0; c < 9; ++c)
-                entries.emplace_back(3 * row + c / 3, 3 * a.column[k] + c % 3, double(a.block[9 * std::size_t(k) + c]));
+        for (int k = a.row_begin[row]; k < a.row_begin[row + 1]; ++k) {
+            const int column = a.column[k];
+            const bool apart = stands_alone(row) || stands_alone(column);
+            for (int c = 0; c < 9; ++c) {
+                const double own = row == column && c % 4 == 0;
+                entries.emplace_back(3 * row + c / 3, 3 * column + c % 3,
+                                     apart ? own : double(a.block[9 * std::size_t(k) + c]));
+            }
+        }
     Eigen::SparseMatrix<double> matrix(3 * a.rows(), 3 * a.rows());
     matrix.setFromTriplets(entries.begin(), entries.end());
     if (coarsest_.rows() == 0) coarsest_.analyzePattern(matrix);
@@ -246,13 +264,14 @@ void Multigrid::estimate_eigenvalue(const BlockMatrix& matrix, Level& level)
     level.largest_eigenvalue = 1.15 * growth;
 }
 
-void Multigrid::build(const BlockMatrix& finest, const Items& rows, const std::vector<char>& is_awake)
+void Multigrid::build(const BlockMatrix& finest, const Items& rows, const std::vector<char>& is_awake,
+                      const std::vector<real>& inv_mass)
 {
     const TraceScope scope("multigrid_build");
     select_rows(rows, is_awake);
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         if (l + 1 == levels_.size()) {
-            factorise_coarsest();
+            factorise_coarsest(finest, inv_mass);
             return;
         }
         const BlockMatrix& matrix = matrix_of(finest, l);

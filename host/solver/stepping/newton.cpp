@@ -19,9 +19,6 @@ constexpr int follow_iterations = 60;     // of that solve: it only leads the cl
 // leave.
 constexpr double solve_part = 0.05;        // error of the linear solves in the energy norm, over the solution's
 constexpr double solve_left = 1e-3;        // or their squared error, over what may be left of the step
-constexpr double whole_way = 0.99;         // of what a direction promises: less is left once it has been limited
-constexpr double foresight = 2;            // times what is expected to be left may be what is allowed
-constexpr double most_foreseen = 0.2;      // ratio of the promises of two directions up to which the next is foreseen
 constexpr double curve_part = 0.1;         // error of the solve that bends a way, as solve_part
 constexpr double worth_bending = 0.3;      // energy of the stretch of second order over what a direction promises
 constexpr int straight_attempts = 3;       // halvings of a bent way before it is given up
@@ -58,6 +55,7 @@ public:
 private:
     bool is_static() const { return objective_.inertia == 0; }
     bool is_solved() const { return options_.acceleration_left > 0 && !is_static(); }
+    bool swings_freely() const;
     newton_descent_args descent() const;
     newton_move_args movement(double fraction) const;
     double value() const;
@@ -77,7 +75,6 @@ private:
     bool moves_little() const;
     double as_acceleration(double energy) const;
     double acceleration_of_forces() const;
-    bool will_have_converged();
     bool almost_converged() const;
 
     System& system_;
@@ -86,17 +83,23 @@ private:
     const Objective objective_;
     const NewtonOptions& options_;
     NewtonReport report_;
-    double promised_ = 0;         // decrease of the objective along the last direction, before it was limited [J]
-    double wanted_move_ = 0;      // largest displacement of that direction [m]
-    double free_mass_ = 0;        // [kg], where the step is to be solved
-    double energy_allowed_ = 0;   // squared norm of what may be left of the step [J]
-    double energy_left_ = 0;      // of the last direction's linear solve [J]
-    double promised_before_ = 0;  // by the direction before, if its way was gone in full [J]; 0: unknown
-    bool way_is_whole_ = false;   // the last direction was neither cut nor limited
-    bool assembled_ = false;      // the linear solver has a matrix of this minimisation
-    bool bent_ = false;           // the way is s straight + s^2 curve; otherwise it is s direction
+    double promised_ = 0;        // decrease of the objective along the last direction, before it was limited [J]
+    double wanted_move_ = 0;     // largest displacement of that direction [m]
+    double free_mass_ = 0;       // [kg], where the step is to be solved
+    double energy_allowed_ = 0;  // squared norm of what may be left of the step [J]
+    double energy_left_ = 0;     // of the last direction's linear solve [J]
+    bool assembled_ = false;     // the linear solver has a matrix of this minimisation
+    bool bent_ = false;          // the way is s straight + s^2 curve; otherwise it is s direction
     std::vector<real>&start_, &base_, &downhill_, &direction_, &unlimited_, &straight_, &curve_;
 };
+
+// Whether no body and no cloth is near. Where they cut a bent way short, short steps towards rest failed, and a garment
+// was led off the bar that it was to hang on.
+bool Minimisation::swings_freely() const
+{
+    const ClothContact* contact = system_.cloth_contact();
+    return !system_.bodies_exert_forces() && !(contact && contact->has_candidates());
+}
 
 newton_descent_args Minimisation::descent() const
 {
@@ -166,7 +169,7 @@ double Minimisation::search_direction()
     promised_ = dot(state_, downhill_, direction_);
     wanted_move_ = largest_move(state_, direction_);
     bent_ = false;
-    if (is_solved()) bend_way();
+    if (is_solved() || (!is_static() && swings_freely())) bend_way();
     if (bent_)
         aim(1);
     else if (!system_.bodies_exert_forces() && !system_.cloth_contact())
@@ -271,7 +274,6 @@ bool Minimisation::search_line(double slope)
     base_ = state_.pos;
     const double before = value();
     double fraction = longest_fraction(system_, options_.move_limits, direction_), part = 1;
-    way_is_whole_ = fraction >= 1 && -slope >= whole_way * promised_;
     const double noise = 1e-13 * std::abs(before) + 1e-16;
     for (int attempt = 0; attempt < 16; ++attempt) {
         move_along_direction(fraction);
@@ -281,7 +283,6 @@ bool Minimisation::search_line(double slope)
             evaluate_gradient();
             if (std::abs(dot(state_, downhill_, direction_)) <= 0.9 * std::abs(slope)) return true;
         }
-        way_is_whole_ = false;
         if (bent_) {
             fraction = halve_bent_way(attempt);
             part *= 0.5;
@@ -323,21 +324,6 @@ bool Minimisation::moves_little() const
 {
     if (!is_solved()) return wanted_move_ <= options_.velocity_tolerance * objective_.span;
     return promised_ + energy_left_ <= energy_allowed_;
-}
-
-// Whether the next direction would be seen to find nothing any more. Directions shrink by about the same factor each
-// time, and none can be known better than its linear solve; that is so only where ways are gone in full, and not where
-// bodies push: a vertex that comes into contact is not foreseen.
-bool Minimisation::will_have_converged()
-{
-    const double before = promised_before_;
-    promised_before_ = way_is_whole_ ? promised_ : 0;
-    if (!way_is_whole_ || !(before > 0) || system_.bodies_exert_forces()) return false;
-    const double shrinks = std::max(promised_ / before, energy_left_ / promised_);
-    const double expected = foresight * foresight * shrinks * promised_;
-    if (!(shrinks < most_foreseen && expected <= energy_allowed_)) return false;
-    report_.acceleration_left = as_acceleration(expected);
-    return true;
 }
 
 bool Minimisation::almost_converged() const
@@ -388,7 +374,6 @@ NewtonReport Minimisation::iterate(bool settles)
         report_.converged = !waits && moves_little();
         if (is_solved()) report_.acceleration_left = as_acceleration(promised_ + energy_left_);
         report_.stuck = !std::isfinite(slope) || !search_line(slope);
-        if (is_solved() && !waits && !report_.stuck && !report_.converged) report_.converged = will_have_converged();
         report_.almost_converged = report_.stuck && almost_converged();
         if ((report_.stuck && !waits) || report_.converged) return report_;
     }

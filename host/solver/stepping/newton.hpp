@@ -15,7 +15,7 @@ struct NewtonOptions {
                                     ///< than this [m/s].
     /// Above 0: the step is to be solved. It has converged when the acceleration that is left to find is below this, as
     /// root mean square over the free mass [m/s^2]. Linear solves then end by their error in
-    /// the energy norm, ways bend where stretch asks for it, and the expected place is where the step starts from.
+    /// the energy norm, and the expected place is where the step starts from.
     double acceleration_left = 0;
     double linear_tolerance = 0.05;  ///< Relative residual of the linear solves [1], where the step need not be solved.
     bool towards_rest = false;       ///< Motion is to die down: integrators leave out what takes their damping off.

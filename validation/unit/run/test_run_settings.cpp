@@ -31,10 +31,12 @@ TEST_CASE("the automatic integrator is static only where the shape at rest does 
 }
 
 TEST_CASE(
-    "the automatic integrator of a motion is bdf2, among bodies implicit Euler, and a named one is taken as named")
+    "the automatic integrator of a motion is bdf2, for limp cloth among bodies implicit Euler, and a named one as "
+    "named")
 {
     CHECK(chosen("builtin:hanging", {"solver.until=0.5"}) == "bdf2");
     CHECK(chosen("builtin:sphere", {}) == "implicit_euler");
+    CHECK(chosen("builtin:sphere", {"sheet.width=0.05", "sheet.height=0.05", "sheet.fabric=leather"}) == "bdf2");
     CHECK(chosen("builtin:sphere", {"solver.integrator=rk4"}) == "rk4");
     CHECK(chosen("builtin:hanging", {"solver.integrator=implicit_euler"}) == "implicit_euler");
 }
