@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include "host/collision/body_query.hpp"
 #include "host/collision/surface_points.hpp"
@@ -17,9 +16,6 @@ struct ThinTuning {
     static constexpr int limit_rounds = 5;   // in which radii are cut to their surroundings'
     static constexpr int smooth_rounds = 8;  // of radii, and as many of ways
     static constexpr double limit = 1.02;    // times the mean radius around
-    // How thin bodies are lowered, in steps [m]: straps on shoulders need 1 to 3.
-    static constexpr double lower_step = 0.01;
-    static constexpr int most_lower_steps = 5;
     // Part of the way back and of the time at which a growing body is there: slow near the end, where cloth is tight.
     static constexpr std::array<std::array<double, 2>, 3> pace = {{{0.5, 0.3}, {0.8, 0.6}, {1.0, 1.0}}};
 };
@@ -74,79 +70,27 @@ std::vector<Body> growing_bodies(const std::vector<Body>& thin, const std::vecto
     return bodies;
 }
 
-namespace {
-
-// Stitched pairs of a cloth that start apart, among the bodies of meshes.
-class PairsAmongBodies {
-public:
-    PairsAmongBodies(const Cloth& cloth, std::vector<Body> bodies) : cloth_(cloth)
-    {
-        std::erase_if(bodies, [](const Body& body) { return body.kind != Body::Kind::mesh; });
-        for (Body& body : bodies) body.motion.reset();
-        for (const auto& [a, b] : cloth.seam_pairs)
-            if (cloth.positions[a] != cloth.positions[b]) pairs_.push_back({a, b});
-        if (!bodies.empty() && !pairs_.empty()) query_.emplace(bodies, box_of(cloth.positions));
-    }
-
-    bool none() const { return !query_; }
-
-    // Which pairs have a body between them or are inside one while bodies are lower by so much [m].
-    std::vector<char> blocked(double lower)
-    {
-        const int count = int(pairs_.size());
-        std::vector<double> planes[2];
-        std::vector<Vec3> ends[2];
-        for (int k = 0; k < 2; ++k) {
-            for (const auto& pair : pairs_) ends[k].push_back(cloth_.positions[pair[k]] + lower * Vec3::UnitZ());
-            for (int c = 0; c < 3; ++c)
-                for (const Vec3& x : ends[k]) planes[k].push_back(x[c]);
-        }
-        const std::vector<BodyCrossing> entries = query_->crossings(planes[0].data(), planes[1].data(), count, count);
-        const std::vector<double> distances = query_->signed_distances(ends[0]);
-        std::vector<char> result(pairs_.size());
-        for (std::size_t k = 0; k < result.size(); ++k) result[k] = entries[k].body >= 0 || distances[k] < 0;
-        return result;
-    }
-
-private:
-    const Cloth& cloth_;
-    std::vector<std::array<int, 2>> pairs_;
-    std::optional<BodyQuery> query_;
-};
-
-std::ptrdiff_t count_of(const std::vector<char>& marked) { return std::count(marked.begin(), marked.end(), 1); }
-
-}  // namespace
-
 bool seams_meet_bodies(const Cloth& cloth, const std::vector<Body>& bodies)
 {
-    PairsAmongBodies pairs(cloth, bodies);
-    return !pairs.none() && count_of(pairs.blocked(0)) > 0;
-}
-
-std::vector<Body> lowered_bodies(const std::vector<Body>& bodies, const Cloth& cloth)
-{
-    PairsAmongBodies pairs(cloth, bodies);
-    if (pairs.none()) return bodies;
-    const std::vector<char> at_first = pairs.blocked(0);
-    std::ptrdiff_t fewest = count_of(at_first);
-    int first = 0, last = 0;
-    for (int step = 1; step <= ThinTuning::most_lower_steps && count_of(at_first) > 0; ++step) {
-        const std::vector<char> now = pairs.blocked(step * ThinTuning::lower_step);
-        bool comes_between = false;
-        for (std::size_t k = 0; k < now.size(); ++k) comes_between = comes_between || (now[k] && !at_first[k]);
-        const std::ptrdiff_t count = count_of(now);
-        if (comes_between) break;
-        if (count < fewest) first = step;
-        if (count <= fewest) last = step;
-        fewest = std::min(fewest, count);
-    }
-    const Vec3 way(0, 0, -ThinTuning::lower_step * ((first + last + 1) / 2));
-    std::vector<Body> lowered = bodies;
-    for (Body& body : lowered)
-        if (body.kind == Body::Kind::mesh)
-            for (Vec3& x : body.mesh.vertices) x += way;
-    return lowered;
+    std::vector<Body> meshes;
+    for (const Body& body : bodies)
+        if (body.kind == Body::Kind::mesh) meshes.push_back(body);
+    for (Body& body : meshes) body.motion.reset();
+    std::vector<Vec3> ends[2];
+    for (const auto& pair : cloth.seam_pairs)
+        for (int k = 0; k < 2 && cloth.positions[pair[0]] != cloth.positions[pair[1]]; ++k)
+            ends[k].push_back(cloth.positions[pair[k]]);
+    const int count = int(ends[0].size());
+    if (meshes.empty() || count == 0) return false;
+    std::vector<double> planes[2];
+    for (int k = 0; k < 2; ++k)
+        for (int c = 0; c < 3; ++c)
+            for (const Vec3& x : ends[k]) planes[k].push_back(x[c]);
+    BodyQuery query(meshes, box_of(cloth.positions));
+    const std::vector<BodyCrossing> entries = query.crossings(planes[0].data(), planes[1].data(), count, count);
+    const std::vector<double> distances = query.signed_distances(ends[0]);
+    return std::any_of(entries.begin(), entries.end(), [](const BodyCrossing& entry) { return entry.body >= 0; }) ||
+           std::any_of(distances.begin(), distances.end(), [](double distance) { return distance < 0; });
 }
 
 }  // namespace selvage

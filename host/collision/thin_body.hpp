@@ -15,11 +15,6 @@ std::vector<Vec3> thin_vertices(const TriangleMesh& mesh, double part);
 /// Returns the bodies with those of meshes made thin, and at rest. @param part  as for thin_vertices
 std::vector<Body> thin_bodies(const std::vector<Body>& bodies, double part);
 
-/// Returns thin bodies of meshes lowered by up to 5 cm, so that the fewest stitched pairs have a body between them:
-/// what is sewn above a shoulder then passes over it. No pair that is free has a body pass through it on the way, so
-/// that what goes around a limb does so still.
-std::vector<Body> lowered_bodies(const std::vector<Body>& bodies, const Cloth& cloth);
-
 /// Returns thin bodies that grow back to what they are: from `start` on, for `length`, ever more slowly [s].
 /// @param thin   of thin_bodies
 /// @param whole  the bodies themselves, where they are at time 0

@@ -39,7 +39,6 @@ GarmentSewing::GarmentSewing(const SceneModel& model, const ClothSettings& setti
         progress_.on_thin = options_.thin_at_once && options_.thin > 0;
     }
     thin_ = thin_bodies(whole_, progress_.on_thin ? options_.thin : 0);
-    if (progress_.on_thin && options_.thin_at_once) thin_ = lowered_bodies(thin_, model_.cloth);
     meet(thin_);
 }
 
