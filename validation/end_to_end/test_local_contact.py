@@ -1,16 +1,10 @@
 """How contact is met depends on what is there: what is special in one place changes nothing elsewhere."""
-import json
-import os
-import subprocess
 import unittest
 
-import h5py
 import numpy as np
 
-from scratch import Scratch
+from scratch import Drapes
 
-PROGRAM = os.environ.get("SELVAGE", "build/selvage")
-PLAIN = ["--quiet", "--threads", "2", "--set", "output.picture=false", "--set", "output.precision=lossless"]
 FLOOR = ["[[body]]", 'name = "floor"', 'shape = "plane"']
 
 
@@ -34,17 +28,11 @@ def sheet_mesh(cells, spacing, sliver):
     return lines + ["f {} {} {}".format(*f) for f in faces]
 
 
-class LocalContact(Scratch):
-    def drape(self, name, scene, *more, code=0, seconds=120):
-        """Runs a scene, lines or a file; returns the last positions [m] and the summary."""
-        file = scene if isinstance(scene, str) else self.write(name + ".toml", scene)
-        result = subprocess.run([PROGRAM, "drape", file, "-o", self.path(name), *PLAIN, *more],
-                                capture_output=True, text=True, timeout=seconds)
-        self.assertEqual(result.returncode, code, result.stderr)
-        with h5py.File(os.path.join(self.path(name), "run.h5"), "r") as run:
-            positions = run["selvage/positions"][-1].astype(float)
-        with open(os.path.join(self.path(name), "summary.json")) as summary:
-            return positions, json.load(summary)
+class LocalContact(Drapes):
+    def drape(self, name, scene, *more):
+        """Returns the last positions [m] and the summary."""
+        _, positions, summary = self.drape_frames(name, scene, *more)
+        return positions[-1], summary
 
     def test_layers_rest_as_far_apart_with_a_sliver_as_without_it(self):
         heights = {}

@@ -1,17 +1,11 @@
 """Motions at the default settings: stiff cloth swings, falls, folds and comes to rest as it should, whole runs."""
-import json
 import math
-import os
-import subprocess
 import unittest
 
-import h5py
 import numpy as np
 
-from scratch import Scratch
+from scratch import Drapes
 
-PROGRAM = os.environ.get("SELVAGE", "build/selvage")
-PLAIN = ["--quiet", "--threads", "2", "--set", "output.picture=false", "--set", "output.precision=lossless"]
 FLOOR = ["[[body]]", 'name = "floor"', 'shape = "plane"']
 
 
@@ -21,18 +15,7 @@ def fabric(stretch, bending, density, friction=0.0):
             f"bending_warp = {bending}", f"friction = {friction}", "damping = 0"]
 
 
-class Motion(Scratch):
-    def drape(self, name, lines, *more, code=0, seconds=120):
-        """Runs a scene; returns times [s], positions [m] of all frames, and the summary."""
-        result = subprocess.run(
-            [PROGRAM, "drape", self.write(name + ".toml", lines), "-o", self.path(name), *PLAIN, *more],
-            capture_output=True, text=True, timeout=seconds)
-        self.assertEqual(result.returncode, code, result.stderr)
-        with h5py.File(os.path.join(self.path(name), "run.h5"), "r") as run:
-            times, positions = run["VTKHDF/Steps/Values"][:], run["selvage/positions"][:].astype(float)
-        with open(os.path.join(self.path(name), "summary.json")) as summary:
-            return times, positions, json.load(summary)
-
+class Motion(Drapes):
     def first_time(self, times, values, limit):
         """When values first fall to the limit, evenly between frames."""
         k = int(np.argmax(values <= limit))
@@ -50,7 +33,7 @@ class Motion(Scratch):
         length = (weight @ arm**2) / (weight @ arm)
         rigid = 1.854074677 * math.sqrt(length / 9.81)  # K(1 / sqrt 2)
         for stretch in (1e3, 1e5, 1e7):
-            times, x, summary = self.drape(f"pendulum{stretch:g}", [
+            times, x, summary = self.drape_frames(f"pendulum{stretch:g}", [
                 "[[sheet]]", f"width = {side}", f"height = {side}", f"resolution = {cells + 1}",
                 "center = [0.1, 0, 1]", 'fabric = "f"', "[pins]", 'sheet = "left_edge"', "[solver]", "until = 0.3",
                 "frame_rate = 50", *fabric(stretch, 0.005, 0.3)])
@@ -60,7 +43,7 @@ class Motion(Scratch):
             self.assertEqual(summary["accuracy"]["unsolved"], 0)
 
     def test_a_leaning_card_falls_over_as_a_rod_without_friction_does(self):
-        times, x, _ = self.drape("card", [
+        times, x, _ = self.drape_frames("card", [
             "[[sheet]]", "width = 0.063", "height = 0.088", "resolution = 9", "rotation = [0, -65, 0]",
             "center = [0, 0, 0.0304]", 'fabric = "f"', *FLOOR, "friction = 0", "[solver]", "until = 0.1",
             "frame_rate = 200", "step = 0.005", *fabric(1e5, 0.005, 0.3)])
@@ -72,7 +55,7 @@ class Motion(Scratch):
 
     def test_a_sheet_that_falls_freely_keeps_its_way_in_every_implicit_integrator(self):
         for integrator in ("implicit_euler", "bdf2", "implicit_midpoint"):
-            times, x, _ = self.drape("fall", [
+            times, x, _ = self.drape_frames("fall", [
                 "[[sheet]]", "width = 4", "height = 4", "resolution = 17", 'mesh_family = "irregular"',
                 "rotation = [30, 20, 10]", "center = [3, 5, 50]", 'fabric = "f"', "[solver]",
                 f'integrator = "{integrator}"', "until = 1", "frame_rate = 50", *fabric(1e6, 1e-5, 0.005)])
@@ -85,7 +68,7 @@ class Motion(Scratch):
     def test_strips_of_any_stiffness_come_to_rest_by_default(self):
         tips = []
         for stretch in (1e3, 1e5, 1e6):
-            _, x, summary = self.drape(f"strip{stretch:g}", [
+            _, x, summary = self.drape_frames(f"strip{stretch:g}", [
                 "[[sheet]]", "width = 0.2", "height = 0.025", "resolution = 41", 'mesh_family = "irregular"',
                 "center = [0, 0, 1]", 'fabric = "f"', "[pins]", 'sheet = "two_rows"', "[solver]",
                 'until = "equilibrium"', *fabric(stretch, 1e-4, 0.2, 0.3)])
@@ -97,7 +80,7 @@ class Motion(Scratch):
             self.assertLess(abs(tip / (-0.947 * 0.195) - 1), 0.02)
 
     def test_paper_is_folded_by_its_corners_without_stretch(self):
-        _, _, summary = self.drape("paper", [
+        _, _, summary = self.drape_frames("paper", [
             "[[sheet]]", "width = 0.21", "height = 0.297", "resolution = 15", 'fabric = "f"', "center = [0, 0, 0.004]",
             *FLOOR, "[[pins.motion]]", 'group = "right_corners"', "start = 0", "end = 1", "turns = -0.5",
             "axis = [0, 1, 0]", "point = [0, 0, 0.0055]", "[[pins.motion]]", 'group = "corners"', "start = 1.05",
