@@ -223,18 +223,15 @@ void add_coarser_levels(const Scene& scene, const Pattern& pattern, ClothModel& 
     }
 }
 
-// How far cloth may go beyond where it starts while it is sewn [m]: chosen by hand.
-constexpr double way_of_sewing = 0.05;
-
 // Lets a garment that is sewn around a body pass between parts of it that touch.
 void make_room(const Scene& scene, SceneModel& model)
 {
     if (!model.body_between || !scene.contact.body || scene.seams.room == 0) return;
     std::vector<Body>& bodies = model.cloth_model.bodies;
-    Box region = box_of(model.cloth_model.cloth.positions);
-    region.min() -= Vec3::Constant(way_of_sewing);
-    region.max() += Vec3::Constant(way_of_sewing);
-    std::vector<Body> parted = parted_bodies(bodies, scene.seams.room, region);
+    std::vector<SeamWay> ways;
+    const Cloth& cloth = model.cloth_model.cloth;
+    for (const auto& pair : cloth.seam_pairs) ways.push_back({cloth.positions[pair[0]], cloth.positions[pair[1]]});
+    std::vector<Body> parted = parted_bodies(bodies, scene.seams.room, std::move(ways));
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         double most = 0;
         for (std::size_t v = 0; v < bodies[b].mesh.vertices.size(); ++v)

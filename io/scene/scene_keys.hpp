@@ -204,18 +204,18 @@
         "friction as the cloth bends, from the fabrics' hysteresis_weft and hysteresis_warp: folds partly stay; not " \
         "while sewing")
 
-#define SEAMS_KEYS(KEY, WORD, CHOICE, VEC3)                                                                          \
-    KEY(double, stiffness, 4e4, "N/m^2", 1e-1, 1e9, "seam force per metre of seam and metre of gap")                 \
-    KEY(double, force_limit, 1.5, "N/m", 1e-4, 1e6, "seam force per metre of seam where the edges are far apart")    \
-    KEY(double, stiffening, 50, "1", 1, 1e6,                                                                         \
-        "multiplies bending rigidity while panels are sewn: stiff panels do not fold over")                          \
-    KEY(double, closed, 0.002, "m", 1e-6, 0.1, "gap below which a pair of vertices is joined")                       \
-    KEY(double, max_time, 20, "s", 0.01, 1e4, "simulated time after which seams that are still open are given up")   \
-    KEY(double, thin, 0.75, "1", 0, 0.95,                                                                            \
-        "part of its thickness by which a mesh body is thin while seams close around it; 0: as thick as it is")      \
-    KEY(double, room, 0.008, "m", 0, 0.05,                                                                           \
-        "distance up to which parts of a mesh body at rest that touch, as thighs do, give way to a garment that is " \
-        "sewn around it; 0: they do not")
+#define SEAMS_KEYS(KEY, WORD, CHOICE, VEC3)                                                                         \
+    KEY(double, stiffness, 4e4, "N/m^2", 1e-1, 1e9, "seam force per metre of seam and metre of gap")                \
+    KEY(double, force_limit, 1.5, "N/m", 1e-4, 1e6, "seam force per metre of seam where the edges are far apart")   \
+    KEY(double, stiffening, 50, "1", 1, 1e6,                                                                        \
+        "multiplies bending rigidity while panels are sewn: stiff panels do not fold over")                         \
+    KEY(double, closed, 0.002, "m", 1e-6, 0.1, "gap below which a pair of vertices is joined")                      \
+    KEY(double, max_time, 20, "s", 0.01, 1e4, "simulated time after which seams that are still open are given up")  \
+    KEY(double, thin, 0.75, "1", 0, 0.95,                                                                           \
+        "part of its thickness by which a mesh body is thin while seams close around it; 0: as thick as it is")     \
+    KEY(double, room, 0.008, "m", 0, 0.05,                                                                          \
+        "distance up to which parts of a mesh body at rest that touch, as thighs do, give way where a seam closes " \
+        "between them; 0: they do not")
 
 #define PINS_KEYS(KEY, WORD, CHOICE, VEC3)                                                                             \
     CHOICE(sheet, PinGroup, none,                                                                                      \
