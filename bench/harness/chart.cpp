@@ -10,7 +10,7 @@
 namespace selvage {
 namespace {
 
-constexpr int margin_left = 84, margin_top = 44, margin_bottom = 62, legend_width = 190;
+constexpr int margin_left = 84, margin_top = 44, margin_bottom = 62, legend_width = 250;
 const cv::Scalar ink(40, 40, 40), faint(225, 225, 225), fainter(242, 242, 242), white(255, 255, 255);
 
 // Okabe and Ito 2008; colour-blind readers can tell these colours apart as well.
@@ -89,10 +89,11 @@ Axis fit_axis(const std::vector<double>& values, int from, int to)
     return axis;
 }
 
-void draw_marker(cv::Mat& on, cv::Point at, int kind, const cv::Scalar& colour)
+// Series beyond the colours take these again, with the next marker.
+void draw_marker(cv::Mat& on, cv::Point at, int look, const cv::Scalar& colour)
 {
     constexpr int r = 5;
-    switch (kind % 4) {
+    switch ((look + look / int(palette.size())) % 4) {
         case 0:
             cv::circle(on, at, r, colour, cv::FILLED, cv::LINE_AA);
             break;

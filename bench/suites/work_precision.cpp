@@ -115,14 +115,15 @@ Json json_report(const Measured& measured)
 Image diagram(const Measured& measured)
 {
     std::vector<std::string> names;
-    for (const IntegratorInfo& info : integrators())
-        for (bool adaptive : {false, true}) names.push_back(method_name(info.name, adaptive));
+    // Eight with fixed steps come first, as many as there are colours: the same with adaptive ones then has its colour.
+    for (bool adaptive : {false, true})
+        for (const IntegratorInfo& info : integrators()) names.push_back(method_name(info.name, adaptive));
     std::vector<Image> charts;
     for (const PrecisionScene& scene : measured.scenes) {
         LogChart chart{scene.title, "CPU time, one thread [s]", "position error / way", {}, 0.01, "1 %"};
         for (const PrecisionFront& front : fronts(measured.points, scene.name))
             chart.series.push_back({front.method, front.seconds, front.error});
-        charts.push_back(draw_log_chart(chart, names, 760, 460));
+        charts.push_back(draw_log_chart(chart, names, 820, 460));
     }
     return tile(charts, std::min(2, int(charts.size())));
 }
