@@ -23,9 +23,9 @@ constexpr int internal_error = 1, bad_input = 2, diverged = 3;
 
 void add_commands(CLI::App& program, Action& chosen)
 {
-    AddCommand* const commands[] = {add_drape_command,  add_plan_command,    add_check_command,   add_render_command,
-                                    add_info_command,   add_measure_command, add_scenes_command,  add_fabrics_command,
-                                    add_schema_command, add_bench_command,   add_validate_command};
+    AddCommand* const commands[] = {add_drape_command,   add_plan_command,    add_check_command,  add_render_command,
+                                    add_info_command,    add_measure_command, add_styles_command, add_scenes_command,
+                                    add_fabrics_command, add_schema_command,  add_bench_command,  add_validate_command};
     for (AddCommand* add : commands) add(program, chosen);
     program.set_version_flag("--version", std::string("selvage ") + version, "Print the version and exit");
     program.footer("Example:\n  selvage drape builtin:tshirt -o out\n`selvage COMMAND --help` tells more.");

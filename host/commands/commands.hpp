@@ -1,5 +1,7 @@
 #pragma once
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/commands/command.hpp"
@@ -7,7 +9,7 @@
 namespace selvage {
 
 AddCommand add_drape_command, add_plan_command, add_check_command, add_render_command, add_info_command,
-    add_measure_command, add_scenes_command, add_fabrics_command, add_schema_command;
+    add_measure_command, add_styles_command, add_scenes_command, add_fabrics_command, add_schema_command;
 
 /// The scene that a subcommand works on.
 struct SceneChoice {
@@ -18,6 +20,12 @@ struct SceneChoice {
 /// Adds the positional SCENE and the option --set, which fill `choice`.
 /// @param default_scene  used if SCENE is not given; empty: SCENE is required
 void add_scene_options(CLI::App& command, SceneChoice& choice, const std::string& default_scene = {});
+
+/// Returns the words of a choice as an option takes them.
+inline std::vector<std::string> words_for_option(std::span<const std::string_view> words)
+{
+    return {words.begin(), words.end()};
+}
 
 /// Returns the valid subcommand or option closest to the first one on the command line that `program` does not know,
 /// or "" if none is close.

@@ -19,11 +19,6 @@ struct MeasureArguments {
     bool json = false;
 };
 
-std::vector<std::string> words_for_option(std::span<const std::string_view> words)
-{
-    return {words.begin(), words.end()};
-}
-
 int measure(MeasureArguments arguments)
 {
     arguments.body.unit = *find_word<LengthUnit>(arguments.unit);

@@ -150,6 +150,25 @@ std::vector<int> add_panel(Cloth& cloth, const PatternPanel& panel, const Meshed
     return sides;
 }
 
+// Vertices that are sewn together and start at one place but for rounding start there exactly: what is joined is told
+// by that.
+void unite_positions(Cloth& cloth)
+{
+    constexpr double rounding = 1e-9;  // [m]
+    const auto before = [](const Vec3& a, const Vec3& b) {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const auto& [a, b] : cloth.seam_pairs) {
+            Vec3 &x = cloth.positions[a], &y = cloth.positions[b];
+            if (x == y || (x - y).norm() > rounding) continue;
+            (before(x, y) ? y : x) = before(x, y) ? x : y;
+            changed = true;
+        }
+    }
+}
+
 }  // namespace
 
 Vec3 place_on_panel(const PatternPanel& panel, const Vec2& point)
@@ -191,6 +210,7 @@ Cloth assemble_garment(const Pattern& pattern, double edge_length, const std::st
         side_of.push_back(add_panel(cloth, panel, meshed[index], lengths[index], fabric));
     }
     join_seams(pattern, side_of, cloth);
+    unite_positions(cloth);
     return cloth;
 }
 

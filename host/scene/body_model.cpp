@@ -17,9 +17,17 @@ namespace {
 
 constexpr double degrees_per_pose = 4;  // a straight way between two poses shortens an arm by 0.06 % of its length
 
-MannequinMeasures body_measures(const BodyScene& body)
+// A mannequin whose size is not given has that of the garment which it wears.
+BodySize size_of(const Scene& scene, int index)
 {
-    MannequinMeasures measures = mannequin_size(body.size);
+    const bool given = scene.places.contains(fmt::format("body[{}].size", index));
+    return !given && scene.places.contains("garment.size") ? scene.garment.size : scene.bodies[index].size;
+}
+
+MannequinMeasures body_measures(const Scene& scene, int index)
+{
+    const BodyScene& body = scene.bodies[index];
+    MannequinMeasures measures = mannequin_size(size_of(scene, index));
     const auto take = [](double& to, double given) {
         if (!std::isnan(given)) to = given;
     };
@@ -53,12 +61,13 @@ void add_arm_poses(const TriangleMesh& start, const MannequinMeasures& measures,
     }
 }
 
-std::vector<LoadedPose> mannequin_poses(const TriangleMesh& start, const BodyScene& body)
+std::vector<LoadedPose> mannequin_poses(const TriangleMesh& start, const MannequinMeasures& measures,
+                                        const BodyScene& body)
 {
     std::vector<LoadedPose> poses;
     const bool raises = std::any_of(body.keyframes.begin(), body.keyframes.end(),
                                     [](const KeyframeScene& key) { return !std::isnan(key.arm_angle); });
-    if (raises) add_arm_poses(start, body_measures(body), body, poses);
+    if (raises) add_arm_poses(start, measures, body, poses);
     return poses;
 }
 
@@ -103,9 +112,10 @@ Body mesh_body(const Scene& scene, int index, std::vector<Finding>& findings)
 Body mannequin_body(const Scene& scene, int index)
 {
     const BodyScene& body = scene.bodies[index];
-    const TriangleMesh mannequin = make_mannequin(body_measures(body), scene.place(fmt::format("body[{}]", index)));
+    const MannequinMeasures measures = body_measures(scene, index);
+    const TriangleMesh mannequin = make_mannequin(measures, scene.place(fmt::format("body[{}]", index)));
     Body made = make_body(body, scene, index, mannequin);
-    add_motion(made, body, mannequin_poses(mannequin, body));
+    add_motion(made, body, mannequin_poses(mannequin, measures, body));
     return made;
 }
 

@@ -15,8 +15,8 @@
 #include "host/examine/scene.hpp"
 #include "host/examine/sheet_mesh.hpp"
 #include "host/garment/assemble.hpp"
-#include "host/garment/catalogue.hpp"
 #include "host/garment/sheet.hpp"
+#include "host/mannequin/mannequin.hpp"
 #include "host/model/cloth_model.hpp"
 #include "host/model/cloth_place.hpp"
 #include "host/model/prolongation.hpp"
@@ -25,6 +25,7 @@
 #include "host/scene/pin_meetings.hpp"
 #include "host/scene/scene_pins.hpp"
 #include "host/solver/contact/contact_tuning.hpp"
+#include "host/styles/styles.hpp"
 #include "io/memory.hpp"
 #include "io/pattern/pattern_json.hpp"
 #include "io/scene/presets.hpp"
@@ -85,11 +86,22 @@ void find_limits(const Scene& scene, SceneModel& model)
              "leave some vertices free"});
 }
 
-Pattern read_pattern(const Scene& scene)
+// Returns the body for which a built-in pattern is drafted: a mannequin of garment.size where that is given, otherwise
+// the first body of the scene that may be a person, otherwise a mannequin of the default size.
+StyleBody body_to_dress(const Scene& scene, const std::vector<Body>& bodies)
+{
+    if (!scene.places.contains("garment.size"))
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+            if (scene.bodies[b].shape == BodyShape::mannequin || scene.bodies[b].shape == BodyShape::mesh)
+                return style_body(bodies[b].mesh, scene.place(fmt::format("body[{}]", b)));
+    return style_body(make_mannequin(mannequin_size(scene.garment.size)), scene.place("garment.size"));
+}
+
+Pattern read_pattern(const Scene& scene, const std::vector<Body>& bodies)
 {
     const std::string& name = scene.garment.pattern;
     Pattern pattern = is_builtin(name)
-                          ? builtin_pattern(name.substr(builtin_prefix.size()), scene.garment.size)
+                          ? draft_style(name.substr(builtin_prefix.size()), body_to_dress(scene, bodies))
                           : read_pattern_json(scene.resolve(name), {scene.garment.up_axis, scene.garment.rotation_order,
                                                                     scene.places.contains("garment.rotation_order")});
     if (pattern.file.empty()) pattern.file = name;
@@ -254,15 +266,17 @@ SceneModel build_scene_model(const Scene& scene)
 {
     const TraceScope scope("assemble");
     SceneModel result;
+    std::vector<Finding> of_bodies;
+    result.cloth_model.bodies = build_bodies(scene, of_bodies);
     Pattern pattern;
-    if (scene.has_garment()) pattern = read_pattern(scene);
+    if (scene.has_garment()) pattern = read_pattern(scene, result.cloth_model.bodies);
     count_sheet_vertices(scene);
     result.cloth_model.cloth = cloth_at_level(scene, pattern, 0);
     // A fabric that no panel is made of must not decide which terms run.
     for (const ClothPanel& panel : result.cloth_model.cloth.panels)
         result.cloth_model.fabrics[panel.fabric] = scene.fabrics.at(panel.fabric);
     result.findings = pattern.findings;
-    result.cloth_model.bodies = build_bodies(scene, result.findings);
+    append_findings(result.findings, of_bodies);
     add_coarser_levels(scene, pattern, result.cloth_model);
     append_findings(result.findings, result.cloth_model.cloth.findings);
     if (scene.has_garment())

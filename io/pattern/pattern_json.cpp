@@ -49,6 +49,7 @@ private:
     PatternPanel read_panel(const std::string& name, const JsonCursor& cursor);
     void read_vertices(const JsonCursor& cursor, PatternPanel& panel) const;
     void read_placement(const JsonCursor& cursor, PatternPanel& panel);
+    void read_wrap(const JsonCursor& cursor, PatternPanel& panel) const;
     void note_rotation_order();
     void read_stitch(const JsonCursor& cursor);
     StitchSide read_side(const JsonCursor& cursor) const;
@@ -122,6 +123,7 @@ PatternPanel PatternReader::read_panel(const std::string& name, const JsonCursor
     read_vertices(cursor.at("vertices"), panel);
     read_edges(cursor.at("edges"), units_, panel, pattern_.findings);
     read_placement(cursor, panel);
+    if (cursor.has("wrap")) read_wrap(cursor.at("wrap"), panel);
     return panel;
 }
 
@@ -173,6 +175,17 @@ void PatternReader::read_placement(const JsonCursor& cursor, PatternPanel& panel
     const Mat3 up = z_up_from(find_word<Axis>(word_of(conventions_.up)).value_or(Axis::y));
     panel.rotation = up * turn;
     panel.translation = up * moved;
+}
+
+void PatternReader::read_wrap(const JsonCursor& cursor, PatternPanel& panel) const
+{
+    PanelWrap wrap;
+    const std::string expected = "a radius above 0 and up to 100 m, in the pattern's unit";
+    wrap.radius = units_.scale * cursor.at("radius").number(expected);
+    if (!(wrap.radius > 0 && wrap.radius <= PanelLimits::largest_distance)) cursor.at("radius").refuse(expected);
+    if (cursor.has("x0")) wrap.x0 = units_.scale * cursor.at("x0").number("a number in the pattern's unit");
+    if (cursor.has("behind")) wrap.behind = cursor.at("behind").flag("true or false");
+    panel.wrap = wrap;
 }
 
 void PatternReader::note_rotation_order()

@@ -10,16 +10,16 @@
 // A default of `automatic` means: not given, chosen by the program.
 // clang-format on
 
-#define GARMENT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                 \
-    WORD(pattern, "", "pattern file (GarmentCode JSON), or a built-in pattern as builtin:tshirt")             \
-    KEY(double, resolution, 0.01, "m", 1e-4, 0.2, "target edge length of the triangles")                      \
-    WORD(fabric, "cotton", "fabric of all panels: a preset's name or a [fabric.NAME] table")                  \
-    CHOICE(size, BodySize, M, "size of a built-in pattern")                                                   \
-    CHOICE(up_axis, PatternAxis, automatic, "up direction of the pattern file; auto: y for GarmentCode JSON") \
-    CHOICE(rotation_order, RotationOrder, xyz,                                                                \
-           "order in which a GarmentCode panel's rotations are applied; xyz means R = Rz Ry Rx")              \
-    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")                                  \
-    KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                      \
+#define GARMENT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                       \
+    WORD(pattern, "", "pattern file (GarmentCode JSON), or a built-in pattern as builtin:tshirt")                   \
+    KEY(double, resolution, 0.01, "m", 1e-4, 0.2, "target edge length of the triangles")                            \
+    WORD(fabric, "cotton", "fabric of all panels: a preset's name or a [fabric.NAME] table")                        \
+    CHOICE(size, BodySize, M, "mannequin for which a built-in pattern is drafted; not given: the scene's own body") \
+    CHOICE(up_axis, PatternAxis, automatic, "up direction of the pattern file; auto: y for GarmentCode JSON")       \
+    CHOICE(rotation_order, RotationOrder, xyz,                                                                      \
+           "order in which a GarmentCode panel's rotations are applied; xyz means R = Rz Ry Rx")                    \
+    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")                                        \
+    KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                            \
     VEC3(copy_offset, 0, 0, 1, "m", "way from one copy to the next")
 
 #define SHEET_KEYS(KEY, WORD, CHOICE, VEC3)                                                                            \
@@ -67,7 +67,7 @@
     KEY(double, height, 0.1, "m", 1e-4, 100, "height of an upright cylinder or cone")                                 \
     KEY(double, tube, 0.02, "m", 1e-4, 100, "radius of the tube (torus)")                                             \
     KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient; automatic: the fabric's")                      \
-    CHOICE(size, BodySize, M, "mannequin size; single measurements below override it")                                \
+    CHOICE(size, BodySize, M, "mannequin size, not given: garment.size; single measurements below override it")       \
     KEY(double, stature, automatic, "m", 0.8, 2.5, "mannequin: body height")                                          \
     KEY(double, bust, automatic, "m", 0.4, 2, "mannequin: bust girth")                                                \
     KEY(double, waist, automatic, "m", 0.3, 2, "mannequin: waist girth")                                              \

@@ -1,0 +1,46 @@
+#pragma once
+#include "host/styles/blocks/draft.hpp"
+#include "host/styles/blocks/style_measures.hpp"
+
+namespace selvage {
+
+/// The dimensions of a bodice without darts beyond the body's measures [m].
+struct BodiceStyle {
+    double bust_ease = 0.14;       ///< Girth at the underarm beyond the bust.
+    double length = 0.70;          ///< From the neck end of the shoulder down to the hem.
+    double flare = 1.03;           ///< Width of the hem over that at the underarm.
+    double waist_shaping = 0.008;  ///< How far the side seams bend inwards.
+    double neck_ease = 0.012;      ///< From the side of the neck out to the neck end of the shoulder.
+    double front_neck_depth = 0.095, back_neck_depth = 0.025;  ///< Below the neck end of the shoulder.
+    double shoulder_extension = 0;                             ///< Outward shift from the shoulder point.
+    double armscye_drop = 0.030;                               ///< Depth of the underarm below the armpit.
+};
+
+/// Returns the front or back of a bodice; y = 0 is the neck end of the shoulder. Edges, by the wearer's sides: `hem`,
+/// `left_side`, `left_armhole`, `left_shoulder`, `neck`, `right_shoulder`, `right_armhole`, `right_side`.
+PanelDraft draft_bodice(bool front, const BodiceStyle& style, const StyleBody& body);
+
+/// Returns a band that follows the neckline of draft_bodice() inwards, in the coordinates of that panel. Edges: `neck`,
+/// which is sewn to the bodice's, `left_end`, `edge`, `right_end`.
+/// @param width  of the band [m]
+PanelDraft draft_neck_band(bool front, const BodiceStyle& style, const StyleBody& body, double width);
+
+/// Places the front or back of a garment of the upper body.
+void place_bodice(PatternPanel& panel, bool front, const StyleBody& body);
+
+/// The dimensions of a sleeve beyond the arm's measures [m].
+struct SleeveStyle {
+    double ease = 0.12;    ///< Girth beyond the upper arm's.
+    double length = 0.21;  ///< Underarm to hem.
+    double cuff = 0.25;    ///< Width at the hem.
+};
+
+/// Returns the left sleeve, whose cap halves are as long as the armhole edges they are sewn to; the deeper the cap, the
+/// narrower is the sleeve. y = 0 is the underarm. Edges: `hem`, `back_under`, `back_cap`, `front_cap`, `front_under`.
+/// @param front_armhole, back_armhole  arc lengths [m]
+PanelDraft draft_sleeve(const SleeveStyle& style, double front_armhole, double back_armhole, const StyleBody& body);
+
+/// Adds both sleeves to a garment of `front` and `back` with edges as draft_bodice() names them, and places them.
+void add_sleeves(PatternDraft& garment, const SleeveStyle& style, const StyleBody& body);
+
+}  // namespace selvage

@@ -1,0 +1,41 @@
+#pragma once
+#include <vector>
+
+#include "host/styles/blocks/style_measures.hpp"
+#include "io/pattern/pattern.hpp"
+
+namespace selvage {
+
+/// How far from the body panels start [m]. Chosen by hand: near enough that seams find their way, wide enough that
+/// cloth and body do not touch at any resolution.
+struct StartGaps {
+    static constexpr double trunk = 0.020, limb = 0.012, neck = 0.008;
+    static constexpr double beyond_shoulder =
+        0.055;  ///< From the shoulder point to the top of a sleeve, along the arm.
+};
+
+/// Places a panel upright beside a part of the body and bends it around an upright axis, as near as the points that it
+/// covers allow: half around, so that it meets a like panel on the other side, if that clears the body; otherwise so
+/// that its ends come as near as possible to the plane through the axis.
+/// @param points   of the body [m]
+/// @param axis     a point on the axis [m]
+/// @param outward  level unit vector from the axis to the panel's middle
+/// @param height   of the panel's line y = 0 [m]
+/// @param middle   x of the panel's line that faces outward [m]
+void hang_around(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& axis, const Vec3& outward,
+                 double height, double middle = 0, double gap = StartGaps::trunk);
+
+/// Places a panel upright and flat beside the body, as near as the points that it covers allow.
+void hang_flat(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& axis, const Vec3& outward,
+               double height, double middle = 0, double gap = StartGaps::trunk);
+
+/// Rolls a panel around a limb: x runs around it, y up along it. The line x = middle is on the outside of the limb, the
+/// ends meet inside, or leave a gap where the limb is wide.
+/// @param points    of the limb [m]
+/// @param start     point on the limb's axis at the panel's y = 0 [m]
+/// @param along     unit vector down the limb
+/// @param outward   unit vector across the limb, to the panel's middle
+void roll_around(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& start, const Vec3& along,
+                 const Vec3& outward, double middle = 0, double gap = StartGaps::limb);
+
+}  // namespace selvage

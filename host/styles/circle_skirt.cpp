@@ -1,0 +1,42 @@
+#include <numbers>
+
+#include "host/styles/blocks/placement.hpp"
+#include "host/styles/blocks/skirt_block.hpp"
+#include "host/styles/style_drafts.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr double knee_share = 0.85;  // length over the distance from waist to knee
+
+}  // namespace
+
+Pattern draft_circle_skirt(const StyleBody& body)
+{
+    const StyleMeasures& m = body.measures;
+    PatternDraft garment;
+    add_waistband(garment, body, m.waist);
+    // Aldrich, circular skirts: the waist is a whole circle.
+    const double waist = m.waist / (2 * std::numbers::pi), hem = waist + knee_share * m.waist_to_knee;
+    std::vector<Vec3> below = body.trunk;
+    for (const std::vector<Vec3>& leg : body.leg) below.insert(below.end(), leg.begin(), leg.end());
+    // Two halves with seams in the middle of front and back: their straight edges start level, and beside the body the
+    // arms would be in the way of a seam.
+    for (const bool left : {true, false}) {
+        const std::string plus = left ? "back" : "front", minus = left ? "front" : "back";
+        PanelDraft half(left ? "left" : "right", Vec2(-hem, 0));
+        half.arc(hem, true, {0, -hem}, minus + "_hem").arc(hem, true, {hem, 0}, plus + "_hem");
+        half.line({waist, 0}, plus).arc(waist, false, {0, -waist}, plus + "_waist");
+        half.arc(waist, false, {-waist, 0}, minus + "_waist").close(minus);
+        hang_flat(half.panel, below, {0, body.waist_y, 0}, left ? Vec3(Vec3::UnitX()) : -Vec3::UnitX(),
+                  body.waist_height);
+        garment.add(half);
+        for (const std::string& end : {plus, minus})
+            garment.sew(half.panel.name + "." + end + "_waist", "waistband_" + end + ".bottom_" + half.panel.name);
+    }
+    garment.sew("left.front", "right.front");
+    garment.sew("left.back", "right.back");
+    return garment.pattern();
+}
+
+}  // namespace selvage

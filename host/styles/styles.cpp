@@ -1,0 +1,62 @@
+#include "host/styles/styles.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/errors.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr Style catalogue[] = {
+    {"tshirt", "T-shirt with a neck band and short sleeves", draft_tshirt},
+    {"vest", "vest without sleeves", draft_vest},
+    {"gathered_skirt", "skirt of two rectangles, gathered to a waistband", draft_gathered_skirt},
+    {"circle_skirt", "skirt of a whole circle with a waistband", draft_circle_skirt},
+};
+
+// Moves a pattern from the body's own frame into that of its mesh.
+void move_to_mesh(Pattern& pattern, const BodyFrame& frame)
+{
+    const Vec3 origin = frame.to_file(Vec3::Zero());
+    Mat3 turn;
+    for (int axis = 0; axis < 3; ++axis) turn.col(axis) = frame.to_file(Vec3::Unit(axis)) - origin;
+    for (PatternPanel& panel : pattern.panels) {
+        panel.translation = frame.to_file(panel.translation);
+        panel.rotation = turn * panel.rotation;
+    }
+}
+
+}  // namespace
+
+std::span<const Style> styles() { return catalogue; }
+
+std::vector<std::string> style_names()
+{
+    std::vector<std::string> names;
+    for (const Style& style : catalogue) names.push_back(style.name);
+    return names;
+}
+
+const Style& find_style(const std::string& name, const std::string& key)
+{
+    const auto* found = std::ranges::find_if(catalogue, [&](const Style& style) { return style.name == name; });
+    if (found != std::end(catalogue)) return *found;
+    InputPlace place;
+    place.key = key;
+    throw InputError(place, fmt::format("\"{}\"", name),
+                     fmt::format("a built-in pattern: {}", fmt::join(style_names(), ", ")),
+                     nearest_name(name, style_names()));
+}
+
+Pattern draft_style(const std::string& name, const StyleBody& body, const std::string& key)
+{
+    Pattern pattern = find_style(name, key).draft(body);
+    move_to_mesh(pattern, body.frame);
+    pattern.name = name;
+    return pattern;
+}
+
+}  // namespace selvage

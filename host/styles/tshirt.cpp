@@ -1,0 +1,43 @@
+#include "host/styles/blocks/bodice_block.hpp"
+#include "host/styles/style_drafts.hpp"
+
+namespace selvage {
+namespace {
+
+constexpr double band_width = 0.022;  // of the neck band [m]
+
+}  // namespace
+
+Pattern draft_tshirt(const StyleBody& body)
+{
+    const StyleMeasures& m = body.measures;
+    BodiceStyle style;
+    style.bust_ease = 0.14;
+    style.length = m.neck_to_waist + m.body_rise + 0.02;  // to the crotch
+    style.flare = 1.0;
+    style.neck_ease = 0.010 + band_width;
+    style.front_neck_depth = 0.5 * m.neck_width + 0.015 + band_width;
+    style.back_neck_depth = 0.012 + band_width;
+    style.shoulder_extension = 0.025;
+    PatternDraft garment;
+    for (const bool front : {true, false}) {
+        PanelDraft panel = draft_bodice(front, style, body);
+        place_bodice(panel.panel, front, body);
+        PanelDraft band = draft_neck_band(front, style, body, band_width);
+        band.panel.rotation = panel.panel.rotation;
+        band.panel.translation = panel.panel.translation;
+        band.panel.wrap = panel.panel.wrap;
+        garment.add(panel);
+        garment.add(band);
+        garment.sew(band.panel.name + ".neck", panel.panel.name + ".neck");
+    }
+    for (const std::string side : {"left", "right"}) {
+        garment.sew("front." + side + "_shoulder", "back." + side + "_shoulder");
+        garment.sew("front." + side + "_side", "back." + side + "_side");
+        garment.sew("neck_band_front." + side + "_end", "neck_band_back." + side + "_end");
+    }
+    add_sleeves(garment, {.ease = 0.11, .length = 0.13, .cuff = m.upper_arm + 0.07}, body);
+    return garment.pattern();
+}
+
+}  // namespace selvage
