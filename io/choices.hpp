@@ -5,7 +5,12 @@
 // Every choice among words that a scene offers. io/scene/scene_keys.hpp says which key takes which, with its default;
 // the reader, its messages and `selvage schema` take the words from here. io/words.hpp tells how the lists are read.
 
-#define BODY_SIZES(WORD) WORD(S) WORD(M) WORD(L)
+#define LETTER_SIZES(WORD) WORD(XS) WORD(S) WORD(M) WORD(L) WORD(XL) WORD(XXL)
+#define SMALL_CHILD_SIZES(WORD) WORD(child110) WORD(child116) WORD(child120) WORD(child122) WORD(child128)
+#define CHILD_SIZES(WORD) \
+    SMALL_CHILD_SIZES(WORD) WORD(child130) WORD(child134) WORD(child140) WORD(child146) WORD(child150) WORD(child152)
+#define BODY_SIZES(WORD) LETTER_SIZES(WORD) CHILD_SIZES(WORD)
+#define BODY_FIGURES(WORD) WORD(automatic) WORD(women) WORD(men) WORD(children)
 #define AXES(WORD) WORD(x) WORD(y) WORD(z)
 #define PATTERN_AXES(WORD) WORD(automatic, "auto") AXES(WORD)
 #define ROTATION_ORDERS(WORD) WORD(xyz) WORD(zyx) WORD(yxz) WORD(yzx) WORD(zxy) WORD(xzy)
@@ -40,6 +45,7 @@
 
 #define CHOICES(CHOICE)                                  \
     CHOICE(BodySize, BODY_SIZES)                         \
+    CHOICE(BodyFigure, BODY_FIGURES)                     \
     CHOICE(Axis, AXES)                                   \
     CHOICE(PatternAxis, PATTERN_AXES)                    \
     CHOICE(RotationOrder, ROTATION_ORDERS)               \

@@ -19,13 +19,13 @@ struct Bound {
     double low, high;
 };
 
-constexpr std::array<Bound, 8> bounds{{{"stature", &MannequinMeasures::stature, 1.40, 2.10},
-                                       {"bust", &MannequinMeasures::bust, 0.74, 1.20},
-                                       {"waist", &MannequinMeasures::waist, 0.56, 1.10},
-                                       {"hips", &MannequinMeasures::hips, 0.80, 1.25},
-                                       {"shoulder_width", &MannequinMeasures::shoulder_width, 0.32, 0.50},
-                                       {"neck", &MannequinMeasures::neck, 0.28, 0.45},
-                                       {"arm_length", &MannequinMeasures::arm_length, 0.45, 0.75},
+constexpr std::array<Bound, 8> bounds{{{"stature", &MannequinMeasures::stature, 1.00, 2.10},
+                                       {"bust", &MannequinMeasures::bust, 0.55, 1.35},
+                                       {"waist", &MannequinMeasures::waist, 0.50, 1.25},
+                                       {"hips", &MannequinMeasures::hips, 0.58, 1.40},
+                                       {"shoulder_width", &MannequinMeasures::shoulder_width, 0.22, 0.46},
+                                       {"neck", &MannequinMeasures::neck, 0.25, 0.48},
+                                       {"arm_length", &MannequinMeasures::arm_length, 0.34, 0.78},
                                        {"arm_angle", &MannequinMeasures::arm_angle, 0.0, 80.0}}};
 
 void check(const MannequinMeasures& measures, const InputPlace& body)
@@ -60,13 +60,6 @@ void name_parts(TriangleMesh& mesh, const MannequinShape& shape)
 }
 
 }  // namespace
-
-MannequinMeasures mannequin_size(BodySize size)
-{
-    if (size == BodySize::S) return {1.66, 0.84, 0.66, 0.93, 0.385, 0.335, 0.580, 45};
-    if (size == BodySize::L) return {1.74, 1.00, 0.83, 1.08, 0.415, 0.370, 0.610, 45};
-    return {};
-}
 
 TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace& body)
 {

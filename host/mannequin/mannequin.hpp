@@ -2,15 +2,12 @@
 #include <string>
 
 #include "host/mannequin/mannequin_measures.hpp"
+#include "host/mannequin/size_table.hpp"
 #include "host/model/body.hpp"
-#include "io/choices.hpp"
 #include "io/errors.hpp"
 #include "io/geometry.hpp"
 
 namespace selvage {
-
-/// Measures of a size (women's, after the ranges of EN 13402-3), in the A-pose.
-MannequinMeasures mannequin_size(BodySize size);
 
 /// Makes a tailor's mannequin with egg head, shaped torso, mitten hands and simple feet. z up, metres,
 /// standing on z = 0 about x = y = 0, facing -y; the wearer's left is +x. A closed, outward oriented 2-manifold

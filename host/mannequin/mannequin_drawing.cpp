@@ -7,7 +7,7 @@ namespace selvage {
 namespace {
 
 /// The measures for which the tables below are drawn [m]. The tables were drawn by hand.
-const MannequinMeasures drawn{1.70, 0.92, 0.74, 1.00, 0.40, 0.35, 0.595, 45};
+const MannequinMeasures drawn = {};
 
 /// A torso section and the weights with which the bust, waist and hip girths scale it; the weights sum to 1.
 struct TorsoStation {

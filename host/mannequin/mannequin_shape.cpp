@@ -177,8 +177,7 @@ double MannequinShape::girth(double height) const
 void MannequinShape::calibrate()
 {
     const MannequinMeasures& m = measures_;
-    const Vec3 up_and_out = Vec3(1, 0, 1).normalized();
-    factors_.joint_x = 0.5 * m.shoulder_width - 0.036 * m.stature / 1.70;
+    factors_.joint_x = 0.5 * m.shoulder_width;
     draw();
     for (int round = 0; round < 8; ++round) {
         const MannequinLandmarks at = landmarks();
@@ -186,7 +185,6 @@ void MannequinShape::calibrate()
         factors_.waist *= m.waist / girth(at.waist_height);
         factors_.hips *= m.hips / girth(at.hip_height);
         factors_.neck *= m.neck / girth(at.neck_height);
-        factors_.joint_x += 0.5 * m.shoulder_width - exit_point(joint_, up_and_out, 0.2).x();
         draw();
     }
 }

@@ -24,10 +24,10 @@ BodySize size_of(const Scene& scene, int index)
     return !given && scene.places.contains("garment.size") ? scene.garment.size : scene.bodies[index].size;
 }
 
-MannequinMeasures body_measures(const Scene& scene, int index)
+MannequinMeasures body_measures(const Scene& scene, int index, const InputPlace& place)
 {
     const BodyScene& body = scene.bodies[index];
-    MannequinMeasures measures = mannequin_size(size_of(scene, index));
+    MannequinMeasures measures = mannequin_size(size_of(scene, index), body.figure, place);
     const auto take = [](double& to, double given) {
         if (!std::isnan(given)) to = given;
     };
@@ -112,8 +112,9 @@ Body mesh_body(const Scene& scene, int index, std::vector<Finding>& findings)
 Body mannequin_body(const Scene& scene, int index)
 {
     const BodyScene& body = scene.bodies[index];
-    const MannequinMeasures measures = body_measures(scene, index);
-    const TriangleMesh mannequin = make_mannequin(measures, scene.place(fmt::format("body[{}]", index)));
+    const InputPlace place = scene.place(fmt::format("body[{}]", index));
+    const MannequinMeasures measures = body_measures(scene, index, place);
+    const TriangleMesh mannequin = make_mannequin(measures, place);
     Body made = make_body(body, scene, index, mannequin);
     add_motion(made, body, mannequin_poses(mannequin, measures, body));
     return made;

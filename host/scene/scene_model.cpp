@@ -94,7 +94,12 @@ StyleBody body_to_dress(const Scene& scene, const std::vector<Body>& bodies)
         for (std::size_t b = 0; b < bodies.size(); ++b)
             if (scene.bodies[b].shape == BodyShape::mannequin || scene.bodies[b].shape == BodyShape::mesh)
                 return style_body(bodies[b].mesh, scene.place(fmt::format("body[{}]", b)));
-    return style_body(make_mannequin(mannequin_size(scene.garment.size)), scene.place("garment.size"));
+    BodyFigure figure = BodyFigure::automatic;  // that of the scene's mannequin, as far as it has this size
+    for (const BodyScene& body : scene.bodies)
+        if (body.shape == BodyShape::mannequin &&
+            is_child_size(scene.garment.size) == (body.figure == BodyFigure::children))
+            figure = body.figure;
+    return style_body(make_mannequin(mannequin_size(scene.garment.size, figure)), scene.place("garment.size"));
 }
 
 Pattern read_pattern(const Scene& scene, const std::vector<Body>& bodies)

@@ -100,7 +100,7 @@ constexpr KeyRule rules[] = {
     {"body", "height", [](const Element& e) { return body_is(e, cylinder, cone); }, "shape = \"cylinder\" or \"cone\"",
      ".shape"},
     {"body", "tube", [](const Element& e) { return body_is(e, torus); }, "shape = \"torus\"", ".shape"},
-    {"body", "size stature bust waist hips shoulder_width neck arm_length arm_angle",
+    {"body", "size figure stature bust waist hips shoulder_width neck arm_length arm_angle",
      [](const Element& e) { return body_is(e, mannequin); }, "shape = \"mannequin\"", ".shape"},
     {"body", "friction", meets_bodies, "contact.body = true", "contact.body"},
     {"body", "interpolation", [](const Element& e) { return !e.body().keyframes.empty(); },

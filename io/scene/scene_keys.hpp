@@ -67,7 +67,12 @@
     KEY(double, height, 0.1, "m", 1e-4, 100, "height of an upright cylinder or cone")                                 \
     KEY(double, tube, 0.02, "m", 1e-4, 100, "radius of the tube (torus)")                                             \
     KEY(double, friction, automatic, "1", 0, 10, "Coulomb coefficient; automatic: the fabric's")                      \
-    CHOICE(size, BodySize, M, "mannequin size, not given: garment.size; single measurements below override it")       \
+    CHOICE(size, BodySize, M,                                                                                         \
+           "mannequin size, of a child by its stature in cm; not given: garment.size; single measurements below "     \
+           "override it")                                                                                             \
+    CHOICE(figure, BodyFigure, automatic,                                                                             \
+           "mannequin: whose table of sizes and whose build; automatic: women's, of sizes that begin with child "     \
+           "children's")                                                                                              \
     KEY(double, stature, automatic, "m", 0.8, 2.5, "mannequin: body height")                                          \
     KEY(double, bust, automatic, "m", 0.4, 2, "mannequin: bust girth")                                                \
     KEY(double, waist, automatic, "m", 0.3, 2, "mannequin: waist girth")                                              \

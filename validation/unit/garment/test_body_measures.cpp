@@ -146,7 +146,7 @@ TEST_CASE("landmarks of a mannequin lie where it was made", "[body]")
     const std::array<std::string, 2> sides{"left_", "right_"};
     for (int k = 0; k < 2; ++k) {
         CHECK((at(measured(), sides[k] + "wrist") - made.wrist[k]).norm() < 0.03);
-        CHECK((at(measured(), sides[k] + "armpit") - made.armpit[k]).norm() < 0.06);
+        CHECK((at(measured(), sides[k] + "armpit") - made.armpit[k]).norm() < 0.07);
         CHECK((at(measured(), sides[k] + "neck_side") - made.neck_side[k]).norm() < 0.03);
     }
     CHECK(at(measured(), "waist_front").z() == Approx(made.waist_height).margin(0.02));

@@ -150,7 +150,7 @@ TEST_CASE("the mannequin has the requested measures")
     }
     CHECK(std::abs(low) < 1e-3);
     CHECK(high - low == Approx(measures.stature).epsilon(0.005));
-    CHECK((at.shoulder_point[0] - at.shoulder_point[1]).norm() == Approx(measures.shoulder_width).epsilon(0.02));
+    CHECK((at.shoulder_joint[0] - at.shoulder_joint[1]).norm() == Approx(measures.shoulder_width).epsilon(0.02));
     for (const Vec3& point : {at.shoulder_point[0], at.shoulder_point[1], at.armpit[0], at.neck_side[0]})
         CHECK(distance_to_vertices(mesh, point) < 0.012);
 
@@ -183,6 +183,25 @@ TEST_CASE("the mannequin faces -y with its left at +x")
     CHECK(at.wrist[0].x() > 0.3);
     CHECK(at.wrist[1].x() < -0.3);
     CHECK(mesh.vertices[mesh.faces[mesh.parts[3].first_face][0]].x() > 0);
+}
+
+TEST_CASE("sizes grow from one to the next, and sizes of children need no figure")
+{
+    const auto grows = [](const MannequinMeasures& a, const MannequinMeasures& b) {
+        return a.stature < b.stature && a.bust < b.bust && a.waist < b.waist && a.hips < b.hips &&
+               a.shoulder_width < b.shoulder_width && a.neck < b.neck && a.arm_length < b.arm_length;
+    };
+    for (const BodyFigure figure : {BodyFigure::women, BodyFigure::men})
+        for (int k = int(BodySize::XS); k < int(BodySize::XXL); ++k)
+            CHECK(grows(mannequin_size(BodySize(k), figure), mannequin_size(BodySize(k + 1), figure)));
+    for (int k = int(BodySize::child110); k < int(BodySize::child152); ++k)
+        CHECK(grows(mannequin_size(BodySize(k)), mannequin_size(BodySize(k + 1))));
+    CHECK(mannequin_size(BodySize::M).figure == BodyFigure::women);
+    CHECK(mannequin_size(BodySize::child122).figure == BodyFigure::children);
+    CHECK(mannequin_size(BodySize::child122).stature == Approx(1.22));
+    CHECK(mannequin_size(BodySize::child130).bust == Approx(0.6667).margin(0.001));
+    CHECK_THROWS_AS(mannequin_size(BodySize::child122, BodyFigure::men), InputError);
+    CHECK_THROWS_AS(mannequin_size(BodySize::M, BodyFigure::children), InputError);
 }
 
 TEST_CASE("measures beyond the mannequin's range are refused")
