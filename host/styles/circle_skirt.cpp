@@ -15,11 +15,9 @@ Pattern draft_circle_skirt(const StyleBody& body)
 {
     const StyleMeasures& m = body.measures;
     PatternDraft garment;
-    add_waistband(garment, body, m.waist);
+    add_waistband(garment, body, m.waist, 1, 1);
     // Aldrich, circular skirts: the waist is a whole circle.
     const double waist = m.waist / (2 * std::numbers::pi), hem = waist + knee_share * m.waist_to_knee;
-    std::vector<Vec3> below = body.trunk;
-    for (const std::vector<Vec3>& leg : body.leg) below.insert(below.end(), leg.begin(), leg.end());
     // Two halves with seams in the middle of front and back: their straight edges start level, and beside the body the
     // arms would be in the way of a seam.
     for (const bool left : {true, false}) {
@@ -28,11 +26,11 @@ Pattern draft_circle_skirt(const StyleBody& body)
         half.arc(hem, true, {0, -hem}, minus + "_hem").arc(hem, true, {hem, 0}, plus + "_hem");
         half.line({waist, 0}, plus).arc(waist, false, {0, -waist}, plus + "_waist");
         half.arc(waist, false, {-waist, 0}, minus + "_waist").close(minus);
-        hang_flat(half.panel, below, {0, body.waist_y, 0}, left ? Vec3(Vec3::UnitX()) : -Vec3::UnitX(),
+        hang_flat(half.panel, below_waist(body), {0, body.waist_y, 0}, left ? Vec3(Vec3::UnitX()) : -Vec3::UnitX(),
                   body.waist_height);
         garment.add(half);
         for (const std::string& end : {plus, minus})
-            garment.sew(half.panel.name + "." + end + "_waist", "waistband_" + end + ".bottom_" + half.panel.name);
+            garment.sew(half.panel.name + "." + end + "_waist", "waistband_" + end + "." + half.panel.name + "_0");
     }
     garment.sew("left.front", "right.front");
     garment.sew("left.back", "right.back");

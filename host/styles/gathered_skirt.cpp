@@ -14,23 +14,20 @@ Pattern draft_gathered_skirt(const StyleBody& body)
 {
     const StyleMeasures& m = body.measures;
     PatternDraft garment;
-    add_waistband(garment, body, m.waist);
-    std::vector<Vec3> below = body.trunk;
-    for (const std::vector<Vec3>& leg : body.leg) below.insert(below.end(), leg.begin(), leg.end());
+    add_waistband(garment, body, m.waist, 1, 1);
     const double half = fullness * m.waist / 4, length = knee_share * m.waist_to_knee;
     for (const bool front : {true, false}) {
-        const std::string plus = front ? "left" : "right", minus = front ? "right" : "left";
-        PanelDraft skirt(front ? "front" : "back", Vec2(-half, -length));
-        skirt.line({half, -length}, "hem").line({half, 0}, plus).line({0, 0}, "waist_" + plus);
-        skirt.line({-half, 0}, "waist_" + minus).close(minus);
-        hang_around(skirt.panel, below, {0, body.waist_y, 0}, front ? -Vec3::UnitY() : Vec3(Vec3::UnitY()),
+        PanelDraft skirt(front ? "front" : "back", {0, -length});
+        skirt.line({half, -length}, "hem").line({half, 0}, "side").line({0, 0}, "waist");
+        skirt = unfolded(skirt, front);
+        hang_around(skirt.panel, below_waist(body), {0, body.waist_y, 0}, front ? -Vec3::UnitY() : Vec3(Vec3::UnitY()),
                     body.waist_height - 0.01);
         garment.add(skirt);
-        for (const std::string& side : {plus, minus})
-            garment.sew(skirt.panel.name + ".waist_" + side, "waistband_" + skirt.panel.name + ".bottom_" + side);
+        for (const std::string side : {"left", "right"})
+            garment.sew(skirt.panel.name + "." + side + "_waist", "waistband_" + skirt.panel.name + "." + side + "_0");
     }
-    garment.sew("front.left", "back.left");
-    garment.sew("front.right", "back.right");
+    garment.sew("front.left_side", "back.left_side");
+    garment.sew("front.right_side", "back.right_side");
     return garment.pattern();
 }
 

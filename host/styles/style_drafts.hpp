@@ -8,6 +8,7 @@ namespace selvage {
 /// panel's outside faces away from the body; its warp (y) runs upwards, or up the limb.
 using DraftStyle = Pattern(const StyleBody& body);
 
-DraftStyle draft_tshirt, draft_vest, draft_gathered_skirt, draft_circle_skirt;
+DraftStyle draft_tshirt, draft_vest, draft_shirt, draft_hoody, draft_dress, draft_trousers, draft_gathered_skirt,
+    draft_circle_skirt;
 
 }  // namespace selvage

@@ -13,6 +13,10 @@ namespace {
 constexpr Style catalogue[] = {
     {"tshirt", "T-shirt with a neck band and short sleeves", draft_tshirt},
     {"vest", "vest without sleeves", draft_vest},
+    {"shirt", "buttoned shirt with a collar on a stand and long sleeves with cuffs", draft_shirt},
+    {"hoody", "hoody with long sleeves with cuffs", draft_hoody},
+    {"dress", "dress without sleeves, with bust and waist darts and a seam at the waist", draft_dress},
+    {"trousers", "trousers with darts and a waistband", draft_trousers},
     {"gathered_skirt", "skirt of two rectangles, gathered to a waistband", draft_gathered_skirt},
     {"circle_skirt", "skirt of a whole circle with a waistband", draft_circle_skirt},
 };

@@ -19,23 +19,23 @@ Pattern draft_tshirt(const StyleBody& body)
     style.front_neck_depth = 0.5 * m.neck_width + 0.015 + band_width;
     style.back_neck_depth = 0.012 + band_width;
     style.shoulder_extension = 0.025;
+    style.armscye_drop = 0.045;
     PatternDraft garment;
     for (const bool front : {true, false}) {
-        PanelDraft panel = draft_bodice(front, style, body);
+        PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);
         place_bodice(panel.panel, front, body);
-        PanelDraft band = draft_neck_band(front, style, body, band_width);
+        PanelDraft band = unfolded(draft_half_neck_band(front, style, body, band_width), front);
         band.panel.rotation = panel.panel.rotation;
         band.panel.translation = panel.panel.translation;
         band.panel.wrap = panel.panel.wrap;
         garment.add(panel);
         garment.add(band);
-        garment.sew(band.panel.name + ".neck", panel.panel.name + ".neck");
+        for (const std::string neck : {".left_neck", ".right_neck"})
+            garment.sew(band.panel.name + neck, panel.panel.name + neck);
     }
-    for (const std::string side : {"left", "right"}) {
-        garment.sew("front." + side + "_shoulder", "back." + side + "_shoulder");
-        garment.sew("front." + side + "_side", "back." + side + "_side");
-        garment.sew("neck_band_front." + side + "_end", "neck_band_back." + side + "_end");
-    }
+    sew_sides(garment);
+    for (const std::string end : {"left_end", "right_end"})
+        garment.sew("neck_band_front." + end, "neck_band_back." + end);
     add_sleeves(garment, {.ease = 0.11, .length = 0.13, .cuff = m.upper_arm + 0.07}, body);
     return garment.pattern();
 }

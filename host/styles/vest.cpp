@@ -15,17 +15,14 @@ Pattern draft_vest(const StyleBody& body)
     style.front_neck_depth = m.neck_width;
     style.back_neck_depth = 0.035;
     style.shoulder_extension = -0.012;
-    style.armscye_drop = 0.025;
+    style.armscye_drop = 0.035;
     PatternDraft garment;
     for (const bool front : {true, false}) {
-        PanelDraft panel = draft_bodice(front, style, body);
+        PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);
         place_bodice(panel.panel, front, body);
         garment.add(panel);
     }
-    for (const std::string side : {"left", "right"}) {
-        garment.sew("front." + side + "_shoulder", "back." + side + "_shoulder");
-        garment.sew("front." + side + "_side", "back." + side + "_side");
-    }
+    sew_sides(garment);
     return garment.pattern();
 }
 

@@ -211,7 +211,7 @@ class BadSceneFiles(BadInput):
             (SHEET + '[[body]]\nshape = "mannequin"\nbust = 1.9\n', r"body\[0\]\.bust", r"1\.9"),
             (SHEET + '[[body]]\nshape = "mannequin"\nsize = "XXXL"\n', r"body\[0\]\.size", "XXXL", '"S", "M"'),
             ('[garment]\npattern = "none.json"\n', r"garment\.pattern", r"none\.json"),
-            ('[garment]\npattern = "builtin:shirt"\n', "builtin:|pattern", "shirt", "tshirt"),
+            ('[garment]\npattern = "builtin:tshrt"\n', "builtin:|pattern", "tshrt", "tshirt"),
             ('[garment]\npattern = "builtin:vest"\n[garment.fabrics]\nfrnt = "silk"\n',
              r"garment\.fabrics", "frnt", "did you mean `front`"),
         ]:

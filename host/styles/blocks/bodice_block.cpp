@@ -9,15 +9,19 @@
 namespace selvage {
 namespace {
 
-/// Half a neckline: its shoulder end at x > 0 and the control point of its curve.
+constexpr double farthest_sleeve = 0.20;  // from the shoulder to the top of a sleeve at the start [m]
+
+/// Half a neckline: from the shoulder end, x > 0, to the middle, x = 0, with the control points of its curve.
 struct Neckline {
-    Vec2 end, control;
+    Vec2 end, first, second, middle;
 };
 
-// The middle of a cubic curve lies at a quarter of the height of its ends and three quarters of that of its controls.
+// The whole neckline is one cubic curve, of which this is half.
 Neckline neckline(bool front, const Vec2& end, double depth)
 {
-    return {end, {(front ? 0.92 : 0.70) * end.x(), (-depth - 0.25 * end.y()) / 0.75}};
+    const Vec2 control((front ? 0.92 : 0.70) * end.x(), (-depth - 0.25 * end.y()) / 0.75);
+    const Vec2 first = 0.5 * (end + control), second = 0.5 * (first + Vec2(0, control.y()));
+    return {end, first, second, {0, -depth}};
 }
 
 double shoulder_slope(const StyleBody& body)
@@ -53,44 +57,49 @@ double cap_width(double length, double height)
     });
 }
 
+struct ArmAxis {
+    Vec3 joint, along, outward;  ///< outward: across the arm, upwards.
+};
+
+ArmAxis arm_axis(const StyleBody& body, int side)
+{
+    const Vec3 joint = 0.5 * (body.shoulder[side] + body.armpit[side]);
+    const Vec3 along = (body.wrist[side] - joint).normalized();
+    return {joint, along, (Vec3::UnitZ() - along.z() * along).normalized()};
+}
+
 }  // namespace
 
-PanelDraft draft_bodice(bool front, const BodiceStyle& style, const StyleBody& body)
+PanelDraft draft_half_bodice(bool front, const BodiceStyle& style, const StyleBody& body)
 {
     const StyleMeasures& m = body.measures;
-    const Vec2 neck(neck_end(style, body), 0);
+    const Neckline line = neckline(front, {neck_end(style, body), 0}, neck_depth(front, style));
     const double shoulder_x = 0.5 * m.shoulder_width + style.shoulder_extension;
-    const Vec2 shoulder(shoulder_x, -shoulder_slope(body) * (shoulder_x - neck.x()));
+    const Vec2 shoulder(shoulder_x, -shoulder_slope(body) * (shoulder_x - line.end.x()));
     const Vec2 underarm(0.25 * (m.bust + style.bust_ease), -m.armscye_depth - style.armscye_drop);
     const Vec2 hem(style.flare * underarm.x(), -style.length);
-    const Vec2 seam = (neck - shoulder).normalized(), across_seam(-seam.y(), seam.x());
+    const Vec2 seam = (line.end - shoulder).normalized(), across_seam(-seam.y(), seam.x());
     const double scoop = front ? 0.022 : 0.008;
     const Vec2 low(shoulder.x() - scoop, underarm.y());
     const Vec2 high = shoulder + 0.5 * (shoulder.y() - underarm.y()) * across_seam;
     const Vec2 waist(0.5 * (underarm.x() + hem.x()) - 2 * style.waist_shaping, 0.5 * (underarm.y() + hem.y()));
-    const Vec2 neck_control = neckline(front, neck, neck_depth(front, style)).control;
-    const std::string plus = front ? "left_" : "right_", minus = front ? "right_" : "left_";
 
-    PanelDraft panel(front ? "front" : "back", mirrored(hem));
-    panel.line(hem, "hem").curve(waist, underarm, plus + "side").curve(low, high, shoulder, plus + "armhole");
-    panel.line(neck, plus + "shoulder").curve(neck_control, mirrored(neck_control), mirrored(neck), "neck");
-    panel.line(mirrored(shoulder), minus + "shoulder");
-    panel.curve(mirrored(high), mirrored(low), mirrored(underarm), minus + "armhole");
-    panel.curve(mirrored(waist), mirrored(hem), minus + "side");
-    return panel;
+    PanelDraft half(front ? "front" : "back", {0, hem.y()});
+    half.line(hem, "hem").curve(waist, underarm, "side").curve(low, high, shoulder, "armhole");
+    half.line(line.end, "shoulder").curve(line.first, line.second, line.middle, "neck");
+    return half;
 }
 
-PanelDraft draft_neck_band(bool front, const BodiceStyle& style, const StyleBody& body, double width)
+PanelDraft draft_half_neck_band(bool front, const BodiceStyle& style, const StyleBody& body, double width)
 {
     const double depth = neck_depth(front, style);
     const Neckline outer = neckline(front, {neck_end(style, body), 0}, depth);
     const Vec2 along = Vec2(-1, shoulder_slope(body)).normalized();
     const Neckline inner = neckline(front, outer.end + width * along, depth - width);
-    const std::string plus = front ? "left_end" : "right_end", minus = front ? "right_end" : "left_end";
-    PanelDraft band(front ? "neck_band_front" : "neck_band_back", mirrored(outer.end));
-    band.curve(mirrored(outer.control), outer.control, outer.end, "neck").line(inner.end, plus);
-    band.curve(inner.control, mirrored(inner.control), mirrored(inner.end), "edge").close(minus);
-    return band;
+    PanelDraft half(front ? "neck_band_front" : "neck_band_back", outer.middle);
+    half.curve(outer.second, outer.first, outer.end, "neck").line(inner.end, "end");
+    half.curve(inner.first, inner.second, inner.middle, "edge");
+    return half;
 }
 
 void place_bodice(PatternPanel& panel, bool front, const StyleBody& body)
@@ -116,26 +125,52 @@ PanelDraft draft_sleeve(const SleeveStyle& style, double front_armhole, double b
     return sleeve.close("front_under");
 }
 
-void add_sleeves(PatternDraft& garment, const SleeveStyle& style, const StyleBody& body)
+double add_sleeves(PatternDraft& garment, const SleeveStyle& style, const StyleBody& body, const Armholes& armholes)
 {
     const PanelDraft left =
-        draft_sleeve(style, garment.length("front.left_armhole"), garment.length("back.left_armhole"), body);
+        draft_sleeve(style, garment.length(armholes.front[0]), garment.length(armholes.back[0]), body);
     const double top = left.panel.vertices[3].y(),
                  middle = 0.5 * (left.panel.vertices[2].x() + left.panel.vertices[4].x());
+    const std::vector<Vec3> bodice = placed_outlines(garment.pattern().panels);
+    double hem = 0;
     for (const int side : {0, 1}) {
         const std::string hand = side == 0 ? "left" : "right";
         PanelDraft sleeve = side == 0 ? left : mirrored(left, "right_sleeve");
-        const Vec3 joint = 0.5 * (body.shoulder[side] + body.armpit[side]);
-        const Vec3 along = (body.wrist[side] - joint).normalized();
-        const Vec3 outward = (Vec3::UnitZ() - along.z() * along).normalized();
-        roll_around(sleeve.panel, body.arm[side], joint + (top + StartGaps::beyond_shoulder) * along, along, outward,
-                    side == 0 ? middle : -middle);
+        const auto [joint, along, outward] = arm_axis(body, side);
+        for (double beyond = StartGaps::beyond_shoulder; beyond < farthest_sleeve; beyond += 0.01) {
+            roll_around(sleeve.panel, body.arm[side], joint + (top + beyond) * along, along, outward,
+                        side == 0 ? middle : -middle);
+            hem = top + beyond + style.length;
+            if (!tube_holds(sleeve.panel, bodice)) break;
+        }
         garment.add(sleeve);
         const std::string name = hand + "_sleeve.";
-        garment.sew(name + "front_cap", "front." + hand + "_armhole");
-        garment.sew(name + "back_cap", "back." + hand + "_armhole");
+        garment.sew(name + "front_cap", armholes.front[side]);
+        garment.sew(name + "back_cap", armholes.back[side]);
         garment.sew(name + "front_under", name + "back_under");
     }
+    return hem;
+}
+
+void add_cuffs(PatternDraft& garment, const StyleBody& body, double girth, double height, double beyond)
+{
+    for (const int side : {0, 1}) {
+        const std::string hand = side == 0 ? "left" : "right";
+        PanelDraft cuff(hand + "_cuff", {-0.5 * girth, -height});
+        cuff.line({0.5 * girth, -height}, "edge").line({0.5 * girth, 0}, "end").line({-0.5 * girth, 0}, "sleeve");
+        cuff.close("other_end");
+        const auto [joint, along, outward] = arm_axis(body, side);
+        roll_around(cuff.panel, body.arm[side], joint + beyond * along, along, outward);
+        garment.add(cuff);
+        garment.sew(hand + "_cuff.sleeve", hand + "_sleeve.hem");
+        garment.sew(hand + "_cuff.end", hand + "_cuff.other_end");
+    }
+}
+
+void sew_sides(PatternDraft& garment)
+{
+    for (const std::string edge : {"left_shoulder", "right_shoulder", "left_side", "right_side"})
+        garment.sew("front." + edge, "back." + edge);
 }
 
 }  // namespace selvage

@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+#include <string>
+
 #include "host/styles/blocks/draft.hpp"
 #include "host/styles/blocks/style_measures.hpp"
 
@@ -16,14 +19,14 @@ struct BodiceStyle {
     double armscye_drop = 0.030;                               ///< Depth of the underarm below the armpit.
 };
 
-/// Returns the front or back of a bodice; y = 0 is the neck end of the shoulder. Edges, by the wearer's sides: `hem`,
-/// `left_side`, `left_armhole`, `left_shoulder`, `neck`, `right_shoulder`, `right_armhole`, `right_side`.
-PanelDraft draft_bodice(bool front, const BodiceStyle& style, const StyleBody& body);
+/// Returns half of the front or back of a bodice, x >= 0, from the middle of the hem to the middle of the neck; y = 0
+/// is the neck end of the shoulder. Edges: `hem`, `side`, `armhole`, `shoulder`, `neck`.
+PanelDraft draft_half_bodice(bool front, const BodiceStyle& style, const StyleBody& body);
 
-/// Returns a band that follows the neckline of draft_bodice() inwards, in the coordinates of that panel. Edges: `neck`,
-/// which is sewn to the bodice's, `left_end`, `edge`, `right_end`.
+/// Returns half of a band that follows the neckline of draft_half_bodice() inwards, in the coordinates of that panel.
+/// Edges: `neck`, which is sewn to the bodice's, `end`, `edge`.
 /// @param width  of the band [m]
-PanelDraft draft_neck_band(bool front, const BodiceStyle& style, const StyleBody& body, double width);
+PanelDraft draft_half_neck_band(bool front, const BodiceStyle& style, const StyleBody& body, double width);
 
 /// Places the front or back of a garment of the upper body.
 void place_bodice(PatternPanel& panel, bool front, const StyleBody& body);
@@ -40,7 +43,23 @@ struct SleeveStyle {
 /// @param front_armhole, back_armhole  arc lengths [m]
 PanelDraft draft_sleeve(const SleeveStyle& style, double front_armhole, double back_armhole, const StyleBody& body);
 
-/// Adds both sleeves to a garment of `front` and `back` with edges as draft_bodice() names them, and places them.
-void add_sleeves(PatternDraft& garment, const SleeveStyle& style, const StyleBody& body);
+/// Armholes of a garment, {left, right}, named as `front.left_armhole`.
+struct Armholes {
+    std::array<std::string, 2> front{"front.left_armhole", "front.right_armhole"};
+    std::array<std::string, 2> back{"back.left_armhole", "back.right_armhole"};
+};
+
+/// Adds both sleeves to a garment, `left_sleeve` and `right_sleeve`, and places them.
+/// @returns how far from the shoulder along the arm their hems start [m]
+double add_sleeves(PatternDraft& garment, const SleeveStyle& style, const StyleBody& body,
+                   const Armholes& armholes = {});
+
+/// Adds a cuff to each sleeve: a band around the wrist, `left_cuff` and `right_cuff`, sewn to the sleeve's hem.
+/// @param girth, height  of the band [m]
+/// @param beyond         from the shoulder along the arm to where the cuffs start [m]
+void add_cuffs(PatternDraft& garment, const StyleBody& body, double girth, double height, double beyond);
+
+/// Sews shoulders and sides of `front` and `back`.
+void sew_sides(PatternDraft& garment);
 
 }  // namespace selvage

@@ -67,6 +67,30 @@ double PanelDraft::length(const std::string& edge) const
     return EdgePath(panel, panel.edges[std::size_t(edges.at(edge))]).length();
 }
 
+PanelDraft unfolded(const PanelDraft& half, bool front)
+{
+    PanelDraft whole = half;
+    PatternPanel& panel = whole.panel;
+    whole.edges.clear();
+    const int count = int(half.panel.edges.size()), last = int(half.panel.vertices.size()) - 1;
+    for (int k = count - 1; k >= 0; --k) {
+        const PatternEdge& from = half.panel.edges[k];
+        if (k > 0) panel.vertices.push_back(mirrored(half.panel.vertices[from.start]));
+        PatternEdge edge = from;
+        edge.start = int(panel.edges.size());
+        edge.end = k > 0 ? edge.start + 1 : 0;
+        if (from.curve == EdgeCurve::quadratic) edge.control[0] = mirrored(from.control[0]);
+        if (from.curve == EdgeCurve::cubic) edge.control = {mirrored(from.control[1]), mirrored(from.control[0])};
+        panel.edges.push_back(edge);
+    }
+    if (last != count) throw std::logic_error("half a panel is an open outline: " + panel.name);
+    for (const auto& [edge, index] : half.edges) {
+        whole.edges[(front ? "left_" : "right_") + edge] = index;
+        whole.edges[(front ? "right_" : "left_") + edge] = 2 * count - 1 - index;
+    }
+    return whole;
+}
+
 PanelDraft mirrored(const PanelDraft& draft, const std::string& name)
 {
     PanelDraft image = draft;

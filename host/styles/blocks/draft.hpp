@@ -28,6 +28,11 @@ private:
     PatternEdge& add(const Vec2& end, const std::string& edge);
 };
 
+/// Returns a whole panel from its half at x >= 0, an open outline from the bottom of the middle, x = 0, to its top.
+/// Edges take the side as a prefix: `left_hem`, `right_hem`.
+/// @param front  it faces forwards: x > 0 is the wearer's left
+PanelDraft unfolded(const PanelDraft& half, bool front);
+
 /// Returns a panel's mirror image with the same names of edges.
 PanelDraft mirrored(const PanelDraft& draft, const std::string& name);
 

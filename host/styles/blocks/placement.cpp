@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "host/garment/assemble.hpp"
 #include "host/garment/outline.hpp"
 
 namespace selvage {
@@ -151,6 +152,26 @@ void roll_around(PatternPanel& panel, const std::vector<Vec3>& points, const Vec
     panel.rotation = panel_rotation(-along, outward);
     panel.translation = start + radius * outward - middle * Vec3(panel.rotation.col(0));
     panel.wrap = PanelWrap{.radius = radius, .x0 = middle, .behind = false};
+}
+
+std::vector<Vec3> placed_outlines(const std::vector<PatternPanel>& panels)
+{
+    std::vector<Vec3> points;
+    for (const PatternPanel& panel : panels)
+        for (const Vec2& p : sample_outline(panel, std::vector<int>(panel.edges.size(), 24)))
+            points.push_back(place_on_panel(panel, p));
+    return points;
+}
+
+bool tube_holds(const PatternPanel& tube, const std::vector<Vec3>& points, double gap)
+{
+    const Extent extent(tube, tube.wrap->x0, gap);
+    return std::ranges::any_of(points, [&](const Vec3& x) {
+        const Vec3 p = tube.rotation.transpose() * (x - tube.translation);
+        const Vec2 across(p.x() - tube.wrap->x0, p.z() + tube.wrap->radius);
+        return across.norm() < tube.wrap->radius + gap &&
+               extent.covers(tube.wrap->radius * std::atan2(across.x(), across.y()), p.y());
+    });
 }
 
 }  // namespace selvage

@@ -10,8 +10,8 @@ namespace selvage {
 /// cloth and body do not touch at any resolution.
 struct StartGaps {
     static constexpr double trunk = 0.020, limb = 0.012, neck = 0.008;
-    static constexpr double beyond_shoulder =
-        0.055;  ///< From the shoulder point to the top of a sleeve, along the arm.
+    static constexpr double beyond_shoulder = 0.055;  ///< From the shoulder to the top of a sleeve, along the arm.
+    static constexpr double panels = 0.010;           ///< Between panels that could cross.
 };
 
 /// Places a panel upright beside a part of the body and bends it around an upright axis, as near as the points that it
@@ -37,5 +37,11 @@ void hang_flat(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3&
 /// @param outward   unit vector across the limb, to the panel's middle
 void roll_around(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& start, const Vec3& along,
                  const Vec3& outward, double middle = 0, double gap = StartGaps::limb);
+
+/// Returns points along the outlines of panels as they are placed.
+std::vector<Vec3> placed_outlines(const std::vector<PatternPanel>& panels);
+
+/// Returns whether one of the points lies within the tube of a panel that roll_around() has placed, or nearly.
+bool tube_holds(const PatternPanel& tube, const std::vector<Vec3>& points, double gap = StartGaps::panels);
 
 }  // namespace selvage
