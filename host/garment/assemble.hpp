@@ -7,6 +7,10 @@
 
 namespace selvage {
 
+/// Returns where a bend takes the line x of a panel: across, from the line that stays in place, and towards the inside
+/// of the bend [m].
+Vec2 place_on_bend(const PanelWrap& wrap, double x);
+
 /// Returns the start position in the scene of a point of a panel: rolled onto the panel's cylinder, rotated
 /// and translated [m].
 Vec3 place_on_panel(const PatternPanel& panel, const Vec2& point);

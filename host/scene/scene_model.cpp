@@ -86,20 +86,21 @@ void find_limits(const Scene& scene, SceneModel& model)
              "leave some vertices free"});
 }
 
-// Returns the body for which a built-in pattern is drafted: a mannequin of garment.size where that is given, otherwise
-// the first body of the scene that may be a person, otherwise a mannequin of the default size.
+// Returns the body for which a built-in pattern is drafted: a mannequin of garment.size where that is given, of the
+// figure of the scene's own; otherwise the first body of the scene that may be a person; otherwise a mannequin of the
+// default size.
 StyleBody body_to_dress(const Scene& scene, const std::vector<Body>& bodies)
 {
-    if (!scene.places.contains("garment.size"))
-        for (std::size_t b = 0; b < bodies.size(); ++b)
-            if (scene.bodies[b].shape == BodyShape::mannequin || scene.bodies[b].shape == BodyShape::mesh)
-                return style_body(bodies[b].mesh, scene.place(fmt::format("body[{}]", b)));
-    BodyFigure figure = BodyFigure::automatic;  // that of the scene's mannequin, as far as it has this size
-    for (const BodyScene& body : scene.bodies)
-        if (body.shape == BodyShape::mannequin &&
-            is_child_size(scene.garment.size) == (body.figure == BodyFigure::children))
-            figure = body.figure;
-    return style_body(make_mannequin(mannequin_size(scene.garment.size, figure)), scene.place("garment.size"));
+    const auto first = std::ranges::find_if(scene.bodies, [](const BodyScene& body) {
+        return body.shape == BodyShape::mannequin || body.shape == BodyShape::mesh;
+    });
+    const bool person = first != scene.bodies.end();
+    const auto index = first - scene.bodies.begin();
+    if (person && !scene.places.contains("garment.size"))
+        return style_body(bodies[std::size_t(index)].mesh, scene.place(fmt::format("body[{}]", index)));
+    const InputPlace place = scene.place("garment.size");
+    const BodyFigure figure = person ? first->figure : BodyFigure::automatic;
+    return style_body(make_mannequin(mannequin_size(scene.garment.size, figure, place)), place);
 }
 
 Pattern read_pattern(const Scene& scene, const std::vector<Body>& bodies)

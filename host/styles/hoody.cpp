@@ -23,7 +23,7 @@ Pattern draft_hoody(const StyleBody& body)
     style.front_neck_depth = 0.5 * m.neck_width + 0.020;
     style.back_neck_depth = 0.020;
     style.shoulder_extension = 0.035;
-    style.armscye_drop = 0.060;
+    style.armscye_drop = 0.075;
     PatternDraft garment;
     for (const bool front : {true, false}) {
         PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);

@@ -24,7 +24,7 @@ Pattern draft_shirt(const StyleBody& body)
     style.front_neck_depth = 0.5 * m.neck_width + 0.010;
     style.back_neck_depth = 0.015;
     style.shoulder_extension = 0.020;
-    style.armscye_drop = 0.050;
+    style.armscye_drop = 0.065;
     PatternDraft garment;
     PanelDraft back = unfolded(draft_half_bodice(false, style, body), false);
     place_bodice(back.panel, false, body);

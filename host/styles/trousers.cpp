@@ -9,8 +9,8 @@ namespace selvage {
 namespace {
 
 // Aldrich, classic tailored trousers: of each of her two darts of the back the half of the width, in one.
-constexpr Dart front_dart{.at = 0.5, .width = 0.02, .depth = 0.10};
-constexpr Dart back_dart{.at = 0.5, .width = 0.035, .depth = 0.12};
+constexpr Dart full_front_dart{.at = 0.5, .width = 0.02, .depth = 0.10};
+constexpr Dart full_back_dart{.at = 0.5, .width = 0.035, .depth = 0.12};
 
 constexpr double rise_ease = 0.015;   // of the crotch below the body's [m]; Aldrich's rise is measured sitting
 constexpr double hem_of_ankle = 1.9;  // girth of the hem over that of the ankle
@@ -23,11 +23,14 @@ struct LegDraft {
     double hip_y = 0, crotch_y = 0, knee_y = 0, hem_y = 0;
     double middle_x = 0;       // |x| of the upright line through the middle of the body
     double hem = 0, knee = 0;  // half widths of the front
+    Dart front_dart, back_dart;
 };
 
 LegDraft leg_of(const StyleMeasures& m)
 {
-    LegDraft leg{.hips = m.hips, .waist = m.waist};
+    LegDraft leg;
+    leg.hips = m.hips;
+    leg.waist = m.waist;
     leg.hip_y = -m.waist_to_hips;
     leg.crotch_y = -m.body_rise - rise_ease;
     leg.hem_y = -(m.body_rise + m.inside_leg - off_ground);
@@ -35,6 +38,12 @@ LegDraft leg_of(const StyleMeasures& m)
     leg.middle_x = m.hips / 12 + 0.015;
     leg.hem = 0.25 * hem_of_ankle * m.ankle - 0.005;
     leg.knee = leg.hem + 0.013;
+    // Aldrich's hips are 26 cm above the waist; darts of straighter figures, as of children, are narrower.
+    const double share = std::clamp((m.hips - m.waist) / 0.26, 0.25, 1.0);
+    leg.front_dart = full_front_dart;
+    leg.back_dart = full_back_dart;
+    leg.front_dart.width *= share;
+    leg.back_dart.width *= share;
     return leg;
 }
 
@@ -53,9 +62,9 @@ PanelDraft draft_front(const LegDraft& leg)
     PanelDraft panel("left_front", {-leg.hem, leg.hem_y});
     panel.line({leg.hem, leg.hem_y}, "hem");
     panel.curve({leg.knee, leg.knee_y}, {hip, 0.5 * (leg.hip_y + leg.crotch_y)}, {hip, leg.hip_y}, "side_leg");
-    const Vec2 side(centre.x() + leg.waist / 4 + 0.0025 + front_dart.width, 0);
+    const Vec2 side(centre.x() + leg.waist / 4 + 0.0025 + leg.front_dart.width, 0);
     panel.curve({hip, 0.5 * leg.hip_y}, side, "side_hip");
-    add_waistline(panel, centre, front_dart, true);
+    add_waistline(panel, centre, leg.front_dart, true);
     panel.line(on_hip, "centre_high");
     panel.curve({-leg.middle_x, leg.crotch_y + 0.01}, {-tip, leg.crotch_y}, "centre_low");
     panel.curve({-leg.knee - 0.01, leg.knee_y}, {-leg.hem, leg.hem_y}, "inseam");
@@ -73,11 +82,11 @@ PanelDraft draft_back(const LegDraft& leg, const LegFit& fit)
     // Drawn with the side at x > 0 like the front; the panel is its mirror image.
     panel.line({hem, leg.hem_y}, "hem");
     panel.curve({knee, leg.knee_y}, {hip, 0.5 * (leg.hip_y + leg.crotch_y)}, {hip, leg.hip_y}, "side_leg");
-    const double across = leg.waist / 4 + 0.0025 + back_dart.width;
+    const double across = leg.waist / 4 + 0.0025 + leg.back_dart.width;
     const double side_y = fit.side_rise;
     const Vec2 side(centre.x() + std::sqrt(across * across - (centre.y() - side_y) * (centre.y() - side_y)), side_y);
     panel.curve({hip, 0.5 * leg.hip_y}, side, "side_hip");
-    add_waistline(panel, centre, back_dart, true);
+    add_waistline(panel, centre, leg.back_dart, true);
     panel.line(seat, "centre_high");
     panel.curve({-line_x - 0.005, leg.crotch_y + 0.01}, {-tip, leg.crotch_y - fit.crotch_drop}, "centre_low");
     panel.curve({-knee - 0.015, leg.knee_y}, {-hem, leg.hem_y}, "inseam");
@@ -124,7 +133,7 @@ Pattern draft_trousers(const StyleBody& body)
     const PanelDraft front = draft_front(leg), back = draft_fitting_back(leg, front);
     const std::vector<Vec3> points = below_waist(body);
     PatternDraft garment;
-    add_waistband(garment, body, leg.waist + 0.01, front_dart.at, back_dart.at);
+    add_waistband(garment, body, leg.waist + 0.01, leg.front_dart.at, leg.back_dart.at);
     for (const std::string side : {"left", "right"}) {
         const bool left = side == "left";
         PanelDraft front_panel = left ? front : mirrored(front, "right_front");

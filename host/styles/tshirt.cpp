@@ -19,7 +19,7 @@ Pattern draft_tshirt(const StyleBody& body)
     style.front_neck_depth = 0.5 * m.neck_width + 0.015 + band_width;
     style.back_neck_depth = 0.012 + band_width;
     style.shoulder_extension = 0.025;
-    style.armscye_drop = 0.045;
+    style.armscye_drop = 0.060;
     PatternDraft garment;
     for (const bool front : {true, false}) {
         PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);
@@ -36,7 +36,7 @@ Pattern draft_tshirt(const StyleBody& body)
     sew_sides(garment);
     for (const std::string end : {"left_end", "right_end"})
         garment.sew("neck_band_front." + end, "neck_band_back." + end);
-    add_sleeves(garment, {.ease = 0.11, .length = 0.13, .cuff = m.upper_arm + 0.07}, body);
+    add_sleeves(garment, {.ease = 0.13, .length = 0.13, .cuff = m.upper_arm + 0.09}, body);
     return garment.pattern();
 }
 

@@ -21,11 +21,14 @@ struct PatternEdge {
     bool right = false;                                       ///< Sweep flag as in an SVG path; arc only.
 };
 
-/// Rolls the flat panel onto a cylinder before it is placed, without stretching it.
+/// Rolls the flat panel onto a cylinder before it is placed, without stretching it. With folds it follows a meander
+/// around the cylinder: the curve whose direction swings as a sine of its length (Langbein and Leopold 1966).
 struct PanelWrap {
-    double radius = 0;    ///< Cylinder radius [m]; the axis runs along the panel's y, above its line x = x0.
-    double x0 = 0;        ///< Panel x [m] that stays in place (touches the flat plane z = 0).
-    bool behind = false;  ///< False: the cylinder bends towards -z (edges move to -z); true: towards +z.
+    double radius = 0;      ///< Cylinder radius [m]; the axis runs along the panel's y, above its line x = x0.
+    double x0 = 0;          ///< Panel x [m] that stays in place (touches the flat plane z = 0).
+    bool behind = false;    ///< False: the cylinder bends towards -z (edges move to -z); true: towards +z.
+    double fold = 0;        ///< Length of cloth in each of the folds along y that the bend has [m]; 0: none.
+    double fold_angle = 0;  ///< By which the cloth in a fold turns to either side of the cylinder [rad].
 };
 
 /// A flat piece of cloth: outline in the panel's own plane and its place in the scene.

@@ -185,6 +185,15 @@ void PatternReader::read_wrap(const JsonCursor& cursor, PatternPanel& panel) con
     if (!(wrap.radius > 0 && wrap.radius <= PanelLimits::largest_distance)) cursor.at("radius").refuse(expected);
     if (cursor.has("x0")) wrap.x0 = units_.scale * cursor.at("x0").number("a number in the pattern's unit");
     if (cursor.has("behind")) wrap.behind = cursor.at("behind").flag("true or false");
+    if (cursor.has("fold")) {
+        const std::string length = "0 or a length of 1 mm to 1 m, in the pattern's unit";
+        wrap.fold = units_.scale * cursor.at("fold").number(length);
+        if (wrap.fold != 0 && !(wrap.fold >= 0.001 && wrap.fold <= 1)) cursor.at("fold").refuse(length);
+    }
+    if (cursor.has("fold_angle")) {
+        wrap.fold_angle = cursor.at("fold_angle").number("an angle in radians");
+        if (!(std::abs(wrap.fold_angle) <= 2)) cursor.at("fold_angle").refuse("an angle of -2 to 2 rad");
+    }
     panel.wrap = wrap;
 }
 

@@ -68,7 +68,9 @@ Json panel_json(const PatternPanel& panel)
     if (panel.wrap)
         json["wrap"] = {{"radius", units_in_meter * panel.wrap->radius},
                         {"x0", units_in_meter * panel.wrap->x0},
-                        {"behind", panel.wrap->behind}};
+                        {"behind", panel.wrap->behind},
+                        {"fold", units_in_meter * panel.wrap->fold},
+                        {"fold_angle", panel.wrap->fold_angle}};
     return json;
 }
 

@@ -1,6 +1,7 @@
 #include "host/styles/blocks/collar_block.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/styles/blocks/placement.hpp"
 
@@ -9,9 +10,13 @@ namespace {
 
 constexpr double stand_lift = 0.030;   // of a stand above the sides of the neck at the start [m]
 constexpr double fall_around = 0.014;  // from the stand to the fall that hangs around it [m]
-constexpr double hood_lift = 0.030;    // of a hood above the sides of the neck at the start [m]
-constexpr double hood_ease = 0.06;     // height of a hood beyond that of the head above the neck [m]
-constexpr double hood_bulge = 0.05;    // of the back of the head beyond the neckline [m]
+// The fall starts so far above the foot of the stand that its seam closes after those of the neckline: lower it would
+// be in their way [m].
+constexpr double fall_lift = 0.10;
+constexpr double fall_radius = 0.70;  // of the seam of the fall [m]
+constexpr double hood_lift = 0.030;   // of a hood above the sides of the neck at the start [m]
+constexpr double hood_ease = 0.06;    // height of a hood beyond that of the head above the neck [m]
+constexpr double hood_bulge = 0.05;   // of the back of the head beyond the neckline [m]
 
 Vec3 neck_axis(const StyleBody& body, double height)
 {
@@ -39,19 +44,23 @@ void add_collar(PatternDraft& garment, const StyleBody& body, const NeckEdges& f
     PanelDraft stand("collar_stand", {-half, 0});
     add_neck_edge(stand, lengths);
     stand.line({half, style.stand}, "right_end").line({-half, style.stand}, "top").close("left_end");
-    PanelDraft fall("collar", {-half, 0});
-    fall.line({half, 0}, "stand").line({half + 0.5 * style.point, style.fall + style.point}, "right_end");
-    fall.curve({0.5 * half, style.fall}, {-0.5 * half, style.fall},
-               {-half - 0.5 * style.point, style.fall + style.point}, "edge");
+    // The fall is a part of a ring: its free edge goes around the stand and is longer than the sewn one.
+    const double turn = half / fall_radius, outer = fall_radius + style.fall;
+    const Vec2 end(std::sin(turn), std::cos(turn)), centre(0, -fall_radius);
+    PanelDraft fall("collar", centre + fall_radius * mirrored(end));
+    fall.arc(fall_radius, false, centre + fall_radius * end, "stand");
+    fall.line(centre + (outer + style.point) * end, "right_end");
+    fall.curve(centre + outer * Vec2(std::sin(0.6 * turn), std::cos(0.6 * turn)) / std::cos(0.1 * turn),
+               centre + outer * Vec2(-std::sin(0.6 * turn), std::cos(0.6 * turn)) / std::cos(0.1 * turn),
+               centre + (outer + style.point) * mirrored(end), "edge");
     fall.close("left_end");
 
     std::vector<Vec3> neck = body.trunk;
     neck.insert(neck.end(), body.head.begin(), body.head.end());
     const double bottom = body.neck_side_height + stand_lift;
     roll_around(stand.panel, neck, neck_axis(body, bottom), -Vec3::UnitZ(), Vec3::UnitY(), 0, StartGaps::neck);
-    // The fall hangs down around the stand, its outside towards the neck, and its ends reach as low as the stand: lower
-    // they would be in the way of the neckline.
-    const double top = bottom + style.fall + style.point;
+    // The fall hangs down, its outside towards the neck.
+    const double top = bottom + style.fall + style.point + fall_lift;
     roll_around(fall.panel, neck, neck_axis(body, top), Vec3::UnitZ(), Vec3::UnitY(), 0, StartGaps::neck);
     const double radius = std::max(fall.panel.wrap->radius, stand.panel.wrap->radius + fall_around);
     fall.panel.rotation = stand.panel.rotation;

@@ -131,6 +131,36 @@ void hang_around(PatternPanel& panel, const std::vector<Vec3>& points, const Vec
     panel.wrap = PanelWrap{.radius = radius, .x0 = middle, .behind = false};
 }
 
+void fold_around(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& axis, const Vec3& outward, int folds,
+                 double most_angle)
+{
+    PanelWrap wrap = *panel.wrap;
+    const Extent extent(panel, wrap.x0, StartGaps::trunk);
+    double widest = 0;  // of the body from the axis, on this side
+    for (const Vec3& x : points) {
+        const Vec3 p = panel.rotation.transpose() * Vec3(x - Vec3(axis.x(), axis.y(), panel.translation.z()));
+        if (extent.reaches(p.y()) && p.z() > 0) widest = std::max(widest, std::hypot(p.x(), p.z()));
+    }
+    wrap.fold = extent.half_width / folds;
+    const auto nearest = [&](double angle) {
+        wrap.fold_angle = angle;
+        const double end = place_on_bend(wrap, wrap.x0 + extent.half_width).y();
+        double least = std::numeric_limits<double>::infinity();
+        for (int k = 0; k <= 16 * folds; ++k) {
+            const Vec2 bent = place_on_bend(wrap, wrap.x0 + extent.half_width * k / (16 * folds));
+            least = std::min(least, std::hypot(bent.x(), end - bent.y()));
+        }
+        return least;
+    };
+    double angle = most_angle;
+    while (angle > 0 && nearest(angle) < widest + StartGaps::trunk) angle -= 0.05;
+    if (angle <= 0) return;
+    nearest(angle);
+    panel.wrap = wrap;
+    panel.translation +=
+        (place_on_bend(wrap, wrap.x0 + extent.half_width).y() - (panel.translation - axis).dot(outward)) * outward;
+}
+
 void hang_flat(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& axis, const Vec3& outward,
                double height, double middle, double gap)
 {

@@ -25,6 +25,13 @@ struct StartGaps {
 void hang_around(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& axis, const Vec3& outward,
                  double height, double middle = 0, double gap = StartGaps::trunk);
 
+/// Lays a panel that hang_around() has placed half around the body into folds, as deep as clears the points that it
+/// covers, and moves it so that its ends stay at the plane through the axis.
+/// @param folds       from the panel's middle to each side
+/// @param most_angle  of the folds, see PanelWrap [rad]
+void fold_around(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& axis, const Vec3& outward, int folds,
+                 double most_angle);
+
 /// Places a panel upright and flat beside the body, as near as the points that it covers allow.
 void hang_flat(PatternPanel& panel, const std::vector<Vec3>& points, const Vec3& axis, const Vec3& outward,
                double height, double middle = 0, double gap = StartGaps::trunk);
