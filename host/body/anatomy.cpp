@@ -37,16 +37,21 @@ Vec3 middle_of_arm(const Anatomy& body, int side, double from_hand)
     return area > 0 ? Vec3(sum / area) : sum;
 }
 
+// 45 degrees for an arm that has no direction.
+double drop_of_arm(const Anatomy& body, int side)
+{
+    const double reach = reach_of_arm(body, side), piece = LimbRoots::upper_arm * body.height;
+    const Vec3 along = middle_of_arm(body, side, reach - piece) - middle_of_arm(body, side, reach);
+    return along.norm() > 0 ? std::asin(std::clamp(-along.z() / along.norm(), -1.0, 1.0)) : M_PI / 4;
+}
+
 // The skin of the armpit follows a raised arm: it lies on the line that halves the angle between arm and trunk. What
 // that moves it outwards from where it is with the arm at 45 degrees is taken back. Below, it hardly moves.
 double shoulder_plane(const Anatomy& body, int side)
 {
-    const double reach = reach_of_arm(body, side), piece = LimbRoots::upper_arm * body.height;
-    const Vec3 along = middle_of_arm(body, side, reach - piece) - middle_of_arm(body, side, reach);
-    if (!(along.norm() > 0)) return std::abs(body.armpits[side].x());
-    const double below = std::acos(std::clamp(-along.z() / along.norm(), -1.0, 1.0));  // angle from hanging down
+    const double from_hanging = M_PI / 2 - body.arm_drop[side];
     const double moved =
-        LimbRoots::armpit_radius * body.height * std::max(std::sin(below / 2) - std::sin(M_PI / 8), 0.0);
+        LimbRoots::armpit_radius * body.height * std::max(std::sin(from_hanging / 2) - std::sin(M_PI / 8), 0.0);
     return std::abs(body.armpits[side].x()) - moved;
 }
 
@@ -128,7 +133,10 @@ Anatomy make_anatomy(Skin skin, const InputPlace& place)
     body.crotch_point = crotch_near(body, body.at(body.limbs.crotch));
     body.crotch = body.crotch_point.z();
     for (int side = 0; side < 2; ++side) body.armpits[side] = body.at(body.limbs.armpits[side]);
-    for (int side = 0; side < 2; ++side) body.shoulders[side] = shoulder_plane(body, side);
+    for (int side = 0; side < 2; ++side) {
+        body.arm_drop[side] = drop_of_arm(body, side);
+        body.shoulders[side] = shoulder_plane(body, side);
+    }
     body.regions.resize(body.skin.vertices.size());
     for (int v = 0; v < int(body.regions.size()); ++v) body.regions[v] = coarse_region(body, v);
     mask_faces(body);

@@ -30,6 +30,7 @@ struct Anatomy {
     double crotch = 0;                   ///< Its z [m].
     std::array<double, 2> shoulders;     ///< |x| of the sagittal plane in which each arm begins [m].
     std::array<Vec3, 2> armpits;         ///< [m]
+    std::array<double, 2> arm_drop;      ///< Angle of each upper arm below the horizontal [rad].
     std::vector<BodyRegion> regions;     ///< Of each vertex: torso, arms and legs only.
     FaceMask trunk;                      ///< Faces that touch no arm: also legs and head.
     std::array<FaceMask, 2> arms, legs;  ///< Faces all of whose corners belong to it.

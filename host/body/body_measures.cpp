@@ -16,6 +16,9 @@ namespace selvage {
 namespace {
 
 constexpr double most_sides_differ = 0.15;  // left and right of a girth; more is a fault of the mesh, not of the body
+// From the joint to the top of the shoulder, over the height: with arms lowered by an angle, the tape runs over that
+// much of its circle. GarmentCode's mean body in A and in T pose then has arms equally long.
+constexpr double shoulder_radius = 0.030;
 constexpr const char* over_hole = ", over a hole of the mesh";
 constexpr std::array<const char*, 2> side_names{"left", "right"};
 
@@ -54,6 +57,7 @@ public:
         add_limb_girths();
         add_landmarks();
         add_lengths();
+        add_limb_lines();
         return std::move(result_);
     }
 
@@ -268,7 +272,9 @@ private:
             if (!wrist) continue;
             const std::vector<double> from =
                 geodesic_distances(body_.skin, sources_at(found_.shoulders.shoulder[side]));
-            arm += distance_to(from, wrist->tape);
+            // As long as with arms at 45 degrees, for which the shoulder point is defined.
+            const double raised = M_PI / 4 - body_.arm_drop[side];
+            arm += distance_to(from, wrist->tape) + raised * shoulder_radius * body_.height;
             shoulder += from[nearest_vertex(found_.shoulders.neck_back)];
             ++count;
         }
@@ -276,8 +282,22 @@ private:
             result_.missing.insert(result_.missing.end(), {"arm_length", "sleeve_length"});
             return;
         }
-        add_length("arm_length", arm / count, "shoulder point to the wrist, over the skin");
+        add_length("arm_length", arm / count, "shoulder point to the wrist, over the skin, for arms at 45 degrees");
         add_length("sleeve_length", (arm + shoulder) / count, "back of the neck over the shoulder point to the wrist");
+    }
+
+    void add_limb_lines()
+    {
+        const auto add = [&](const char* limb, const std::array<std::vector<LimbTape>, 2>& lines) {
+            for (int side = 0; side < 2; ++side) {
+                LimbLine line{fmt::format("{}_{}", side_names[side], limb), {}};
+                for (const LimbTape& at : lines[side])
+                    line.sections.push_back({body_.limbs.frame.to_file(at.middle), at.tape.length});
+                result_.limbs.push_back(std::move(line));
+            }
+        };
+        add("arm", found_.limbs.arm_line);
+        add("leg", found_.limbs.leg_line);
     }
 
     int nearest_vertex(const Vec3& point) const
@@ -353,6 +373,7 @@ void refine_regions(Found& found)
 const BodyMeasure* BodyMeasures::girth(std::string_view name) const { return named(girths, name); }
 const BodyMeasure* BodyMeasures::length(std::string_view name) const { return named(lengths, name); }
 const Landmark* BodyMeasures::landmark(std::string_view name) const { return named(landmarks, name); }
+const LimbLine* BodyMeasures::limb(std::string_view name) const { return named(limbs, name); }
 
 BodyMeasures measure_body(const TriangleMesh& mesh, const InputPlace& place)
 {

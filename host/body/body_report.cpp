@@ -79,6 +79,13 @@ std::string measures_json(const BodyMeasures& measures, const std::string& name)
     json["landmarks"] = Json::object();
     for (const Landmark& landmark : measures.landmarks)
         json["landmarks"][landmark.name] = {landmark.position.x(), landmark.position.y(), landmark.position.z()};
+    json["limbs"] = Json::object();
+    for (const LimbLine& limb : measures.limbs) {
+        Json& line = json["limbs"][limb.name] = Json::array();
+        for (const LimbSection& section : limb.sections)
+            line.push_back(
+                {{"middle", {section.middle.x(), section.middle.y(), section.middle.z()}}, {"girth_m", section.girth}});
+    }
     json["part_vertices"] = Json::object();
     for (const auto& [region, count] : counted_regions(measures)) json["part_vertices"][region] = count;
     json["loose_area_share"] = 1 - measures.area_share;

@@ -12,6 +12,7 @@ namespace {
 /// Where levels are looked for, over the height.
 struct LimbWindows {
     static constexpr double step = 0.0025;
+    static constexpr double line_step = 0.015, line_end = 0.03;    // of the centre lines; from the tip of hand or foot
     static constexpr double axis_half = 0.025;                     // half the piece of an arm that gives its axis
     static constexpr double around = 0.08;                         // how far the skin of a section lies along the arm
     static constexpr double wrist_low = 0.085, wrist_high = 0.15;  // from the tip of the hand; a hand has 0.108
@@ -99,6 +100,16 @@ void find_arm(const Anatomy& body, int side, LimbLevels& levels)
     }
 }
 
+std::vector<LimbTape> arm_line(const Anatomy& body, int side)
+{
+    const double h = body.height, armpit = body.limbs.from_hand[side][body.limbs.armpits[side]];
+    const Arm arm(body, side);
+    std::vector<LimbTape> line;
+    for (double d = armpit; d > LimbWindows::line_end * h; d -= LimbWindows::line_step * h)
+        if (std::optional<LimbTape> found = arm.at(d)) line.push_back(std::move(*found));
+    return line;
+}
+
 // A level section of a leg.
 struct LegSection {
     double z = 0, girth = 0, front = 0;  ///< [m]; front: least y.
@@ -112,6 +123,15 @@ std::optional<LimbTape> leg_at(const Anatomy& body, int side, double z)
     found.middle = found.tape.middle();
     found.axis = -Vec3::UnitZ();
     return found;
+}
+
+std::vector<LimbTape> leg_line(const Anatomy& body, int side)
+{
+    std::vector<LimbTape> line;
+    for (double z = body.crotch - LimbWindows::thigh_below_crotch * body.height;
+         z > LimbWindows::line_end * body.height; z -= LimbWindows::line_step * body.height)
+        if (std::optional<LimbTape> found = leg_at(body, side, z)) line.push_back(std::move(*found));
+    return line;
 }
 
 std::optional<LegSection> leg_section(const Anatomy& body, int side, double z)
@@ -188,7 +208,11 @@ void find_legs(const Anatomy& body, LimbLevels& levels)
 LimbLevels find_limb_levels(const Anatomy& body)
 {
     LimbLevels levels;
-    for (int side = 0; side < 2; ++side) find_arm(body, side, levels);
+    for (int side = 0; side < 2; ++side) {
+        find_arm(body, side, levels);
+        levels.arm_line[side] = arm_line(body, side);
+        levels.leg_line[side] = leg_line(body, side);
+    }
     find_legs(body, levels);
     return levels;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "host/body/anatomy.hpp"
 
@@ -19,6 +20,8 @@ struct LimbLevels {
     std::array<std::optional<LimbTape>, 2> upper_arm, wrist;
     std::array<std::optional<LimbTape>, 2> thigh, knee, calf, ankle;
     bool knee_is_cap = true;  ///< Else it is the narrowest place between thigh and calf.
+    /// Sections all along the limbs, from trunk to tip: across an arm, level around a leg.
+    std::array<std::vector<LimbTape>, 2> arm_line, leg_line;
 };
 
 LimbLevels find_limb_levels(const Anatomy& body);
