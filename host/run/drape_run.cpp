@@ -68,8 +68,10 @@ void DrapeRun::start_phase(RunStage stage, const std::vector<Vec3>& positions, c
         sewing_->start();
         return;
     }
-    const PhaseOptions options =
+    PhaseOptions options =
         seams_are_open() ? with_open_seams(settings_.cloth, progress_.sewing.welded) : settings_.cloth.draping;
+    if (!progress_.sewing.welded.empty() && options.local_stiffness)
+        bear_pull(options.params, pull_limit(settings_.cloth.sew, progress_.sewing), settings_.cloth.sew.edge_length);
     phase_ = std::make_unique<Phase>(model_.cloth_model, options, meets_bodies(options.params) ? &*query_ : nullptr,
                                      profile_, positions, velocities);
     integrator_ = make_integrator(word_of(settings_.integrator), *phase_);

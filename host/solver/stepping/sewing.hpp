@@ -58,6 +58,14 @@ double largest_gap(const Phase& phase);
 /// Which pairs of a cloth start at one place: they are sewn before the first step.
 std::vector<char> coinciding_pairs(const Cloth& cloth);
 
+/// Returns the largest force with which a pair is pulled now [N].
+double pull_limit(const SewingOptions& options, const SewingProgress& progress);
+
+/// Makes contact stiff enough for seams that are pulled, or for the cloth that they have closed: a tension t [N/m] over
+/// an edge as long as a triangle's, h, presses with t / h, and no vertex may be pressed to where its barrier does not
+/// resist any more. @param pull  t h [N]   @param edge_length  h [m]
+void bear_pull(Params& params, double pull, double edge_length);
+
 /// True if no pair is left to weld.
 bool all_welded(const std::vector<char>& welded);
 
