@@ -2,14 +2,15 @@
 
 #include <iostream>
 
+#include "bench/accuracy/motion_map.hpp"
+#include "bench/accuracy/stability.hpp"
+#include "bench/accuracy/work_precision.hpp"
 #include "bench/suites/broad_phase.hpp"
 #include "bench/suites/contact_cost.hpp"
+#include "bench/suites/garments.hpp"
 #include "bench/suites/kernels.hpp"
-#include "bench/suites/motion_map.hpp"
 #include "bench/suites/scaling.hpp"
 #include "bench/suites/skip.hpp"
-#include "bench/suites/stability.hpp"
-#include "bench/suites/work_precision.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -22,10 +23,10 @@ struct Suite {
 
 const std::vector<Suite>& suites()
 {
-    static const std::vector<Suite> all = {{"kernels", bench_kernels},     {"broad-phase", bench_broad_phase},
-                                           {"contact", bench_contact},     {"skip", bench_skip},
-                                           {"scaling", bench_scaling},     {"work-precision", bench_work_precision},
-                                           {"stability", bench_stability}, {"motion", bench_motion}};
+    static const std::vector<Suite> all = {
+        {"kernels", bench_kernels},     {"broad-phase", bench_broad_phase}, {"contact", bench_contact},
+        {"skip", bench_skip},           {"scaling", bench_scaling},         {"work-precision", bench_work_precision},
+        {"stability", bench_stability}, {"motion", bench_motion},           {"garments", bench_garments}};
     return all;
 }
 

@@ -33,6 +33,19 @@ Image make_image(int width, int height, Rgb colour)
     return image;
 }
 
+Image read_image(const std::string& file)
+{
+    const cv::Mat bgr = cv::imread(file, cv::IMREAD_COLOR);
+    if (bgr.empty()) throw InputError({file, 0, 0, {}}, "no picture", "a picture, such as a PNG file");
+    Image image = make_image(bgr.cols, bgr.rows);
+    for (int row = 0; row < bgr.rows; ++row)
+        for (int column = 0; column < bgr.cols; ++column) {
+            const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(row, column);
+            image.at(column, row) = {pixel[2], pixel[1], pixel[0]};
+        }
+    return image;
+}
+
 void write_png(const std::string& file, const Image& image)
 {
     const std::size_t pixel_count = std::size_t(image.width) * std::size_t(image.height);

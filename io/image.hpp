@@ -23,6 +23,10 @@ struct Image {
 /// Returns a picture of one colour.
 Image make_image(int width, int height, Rgb colour = {0, 0, 0});
 
+/// Reads a picture of any kind that OpenCV knows, as 8-bit colours.
+/// @throws InputError if the file cannot be read as a picture
+Image read_image(const std::string& file);
+
 /// Writes a picture as PNG.
 /// @throws InputError if the picture is empty or the file cannot be written.
 void write_png(const std::string& file, const Image& image);

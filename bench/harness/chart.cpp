@@ -243,6 +243,20 @@ Image draw_cell_legend(const std::vector<CellKind>& kinds, int width)
     return image_of(picture);
 }
 
+Image captioned(const Image& picture, const std::string& text, int width, int height)
+{
+    cv::Mat field = canvas(width, height);
+    const int room = height - 26;
+    if (picture.width > 0) {
+        const double scale = std::min(double(width) / picture.width, double(room) / picture.height);
+        cv::Mat small;
+        cv::resize(mat_of(picture), small, {}, scale, scale, cv::INTER_AREA);
+        small.copyTo(field(cv::Rect((width - small.cols) / 2, 0, small.cols, small.rows)));
+    }
+    write_centred(field, text, {width / 2, height - 12}, 0.4);
+    return image_of(field);
+}
+
 Image tile(const std::vector<Image>& pictures, int columns)
 {
     if (pictures.empty()) return {};

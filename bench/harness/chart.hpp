@@ -47,6 +47,10 @@ Image draw_cell_map(const CellMap& map, const std::vector<CellKind>& kinds, int 
 /// Draws a line of coloured boxes with their meanings.
 Image draw_cell_legend(const std::vector<CellKind>& kinds, int width);
 
+/// Scales a picture into a field of a contact sheet, with a line of text below it; one that is empty leaves it white.
+/// @param width, height  of the field [pixels]
+Image captioned(const Image& picture, const std::string& text, int width, int height);
+
 /// Puts pictures of one size side by side, row by row, on white.
 Image tile(const std::vector<Image>& pictures, int columns);
 

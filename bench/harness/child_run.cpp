@@ -83,17 +83,17 @@ WorkFolder::~WorkFolder()
 
 std::string own_program() { return fs::read_symlink("/proc/self/exe").string(); }
 
-ChildRun run_child(const std::string& program, const std::vector<std::string>& arguments)
+ChildRun run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& folder)
 {
-    const WorkFolder folder;
+    const WorkFolder scratch;
+    const std::string out = folder.empty() ? scratch.file("out") : folder, log = scratch.file("log");
     std::vector<std::string> words = {program, "drape"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    for (const std::string& word : {std::string("--quiet"), std::string("-o"), folder.file("out")})
-        words.push_back(word);
+    for (const std::string& word : {std::string("--quiet"), std::string("-o"), out}) words.push_back(word);
 
     ChildRun run;
     const auto begin = std::chrono::steady_clock::now();
-    const pid_t child = start(words, folder.file("log"));
+    const pid_t child = start(words, log);
     int status = 0;
     rusage usage{};
     while (wait4(child, &status, 0, &usage) < 0)
@@ -102,10 +102,9 @@ ChildRun run_child(const std::string& program, const std::vector<std::string>& a
     run.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     run.peak_memory_bytes = 1024 * double(usage.ru_maxrss);
     run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    run.errors = text_of(folder.file("log"));
-    if (fs::exists(folder.file("out/summary.json")))
-        run.summary = nlohmann::json::parse(text_of(folder.file("out/summary.json")));
-    if (fs::exists(folder.file("out/run.h5"))) read_run(folder.file("out/run.h5"), run);
+    run.errors = text_of(log);
+    if (fs::exists(out + "/summary.json")) run.summary = nlohmann::json::parse(text_of(out + "/summary.json"));
+    if (fs::exists(out + "/run.h5")) read_run(out + "/run.h5", run);
     return run;
 }
 

@@ -41,10 +41,12 @@ struct ChildRun {
 /// Returns the path of the program that is running now.
 std::string own_program();
 
-/// Runs `program drape` to its end and removes its output folder.
+/// Runs `program drape` to its end.
 /// @param program    file to run, such as own_program()
 /// @param arguments  after `drape`; an output folder and --quiet are added
+/// @param folder     where its output stays; empty: it is removed
 /// @throws std::runtime_error if the program cannot be started
-ChildRun run_child(const std::string& program, const std::vector<std::string>& arguments);
+ChildRun run_child(const std::string& program, const std::vector<std::string>& arguments,
+                   const std::string& folder = {});
 
 }  // namespace selvage

@@ -117,6 +117,24 @@ bool is_sheet(const Cloth& cloth, int panel)
                         [&](const OutlineSamples& samples) { return samples.panel == panel; });
 }
 
+// The edges of a panel's outline that a list names, in its order; those of a sheet are none.
+std::vector<const OutlineSamples*> listed_edges(const std::string& list, const Cloth& cloth, int panel,
+                                                const InputPlace& place)
+{
+    std::vector<const OutlineSamples*> edges, all;
+    for (const OutlineSamples& samples : cloth.outline)
+        if (samples.panel == panel) all.push_back(&samples);
+    for (const int edge : listed_indices(list, place)) {
+        const std::string& name = cloth.panels[panel].name;
+        if (edge >= int(all.size()))
+            throw InputError(place, "`" + std::to_string(edge) + "`",
+                             all.empty() ? name + " is a sheet, whose edges are chosen by `group`"
+                                         : "edges from 0 to " + std::to_string(all.size() - 1) + " of " + name);
+        edges.push_back(all[edge]);
+    }
+    return edges;
+}
+
 std::vector<int> chosen_panels(const Cloth& cloth, const std::string& name, const InputPlace& place)
 {
     std::vector<int> panels;
@@ -133,17 +151,26 @@ std::vector<int> chosen_panels(const Cloth& cloth, const std::string& name, cons
 
 }  // namespace
 
-std::vector<int> chosen_vertices(const Cloth& cloth, const PinChoice& choice, const InputPlace& panel_place,
-                                 const InputPlace& list_place)
+std::vector<int> chosen_vertices(const Cloth& cloth, const PinChoice& choice, const PinPlaces& places)
 {
     std::vector<int> chosen;
-    for (const int p : chosen_panels(cloth, choice.panel, panel_place)) {
+    for (const int p : chosen_panels(cloth, choice.panel, places.panel)) {
         const ClothPanel& panel = cloth.panels[p];
         std::set<int> vertices = group_vertices(choice.group, cloth, panel);
-        vertices.merge(listed_vertices(choice.list, panel, list_place));
+        vertices.merge(listed_vertices(choice.list, panel, places.list));
+        for (const OutlineSamples* edge : listed_edges(choice.edges, cloth, p, places.edges))
+            for (const int vertex : edge->vertices) vertices.insert(vertex - panel.first_vertex);
         for (const int vertex : vertices) chosen.push_back(panel.first_vertex + vertex);
     }
     return chosen;
+}
+
+void sew_elastic(Cloth& cloth, const ElasticScene& elastic, const InputPlace& panel_place,
+                 const InputPlace& edges_place)
+{
+    for (const int p : chosen_panels(cloth, elastic.panel, panel_place))
+        for (const OutlineSamples* edge : listed_edges(elastic.edges, cloth, p, edges_place))
+            cloth.elastics.push_back({edge->vertices, elastic.length, elastic.stiffness});
 }
 
 void hold_vertices(Cloth& cloth, const std::vector<int>& vertices)

@@ -50,6 +50,10 @@ void append_cloth(Cloth& to, const Cloth& other)
         seam.first_pair += pairs;
         to.seams.push_back(seam);
     }
+    for (Elastic elastic : other.elastics) {
+        for (int& vertex : elastic.vertices) vertex += vertices;
+        to.elastics.push_back(std::move(elastic));
+    }
     for (const auto& [a, b] : other.seam_pairs) to.seam_pairs.push_back({a + vertices, b + vertices});
     for (const int vertex : other.pinned) to.pinned.push_back(vertex + vertices);
     for (PinMotion motion : other.pin_motions) {

@@ -38,6 +38,13 @@ struct Seam {
     InputPlace place = {};              ///< Of the stitch in the pattern.
 };
 
+/// A band of elastic that is sewn, stretched, along vertices of an outline.
+struct Elastic {
+    std::vector<int> vertices;  ///< One after the other.
+    double shrink = 1;          ///< Its length at rest over that of the flat cloth along it [1].
+    double stiffness = 0;       ///< Tension at twice its length [N].
+};
+
 /// A prescribed motion of pinned vertices: a rotation about an axis and a translation, both at constant speed from
 /// `start` to `end` [s].
 struct PinMotion {
@@ -59,9 +66,10 @@ struct Cloth {
     std::vector<OutlineSamples> outline;  ///< Every outline edge of every panel (garments).
     std::vector<Seam> seams;
     std::vector<std::array<int, 2>> seam_pairs;  ///< Vertices that are sewn to each other.
-    std::vector<int> pinned;                     ///< Vertices with prescribed positions, sorted.
-    std::vector<PinMotion> pin_motions;          ///< In the order in which they are applied.
-    std::vector<Finding> findings;               ///< Unusual input that could be used.
+    std::vector<Elastic> elastics;
+    std::vector<int> pinned;             ///< Vertices with prescribed positions, sorted.
+    std::vector<PinMotion> pin_motions;  ///< In the order in which they are applied.
+    std::vector<Finding> findings;       ///< Unusual input that could be used.
 };
 
 /// Returns the faces of a cloth, counter-clockwise as seen from its outside, in the order of Cloth::faces.

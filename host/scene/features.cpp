@@ -113,7 +113,10 @@ double bending_scale(const FeatureCase& with)
 std::string spring(const FeatureCase& with, Params& params)
 {
     const bool stretches = with.scene.membrane.model == MembraneModel::springs, bends = has_bend_springs(with.scene);
-    if (!stretches && !bends) return "neither membrane.model nor bending.model is springs";
+    const bool elastic = !with.model.cloth_model.cloth.elastics.empty() && !with.sewing;
+    if (!stretches && !bends && !elastic)
+        return "neither membrane.model nor bending.model is springs, and no elastic pulls";
+    if (elastic) params.spring.elastic_scale = 1;
     if (stretches) params.spring.scale = with.scene.membrane.scale;
     if (bends) params.spring.bend_scale = bending_scale(with);
     return on;

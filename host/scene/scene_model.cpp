@@ -212,8 +212,9 @@ Cloth cloth_at_level(const Scene& scene, const Pattern& pattern, int level)
     if (scene.has_garment()) {
         const int copies = scene.garment.copies;
         const double most = std::max(0.0, most_vertices(scene) - count_sheet_vertices(scene)) / copies;
-        const Cloth garment = assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric,
-                                               scene.panel_fabrics, most);
+        Cloth garment = assemble_garment(pattern, scene.garment.resolution * factor, scene.garment.fabric,
+                                         scene.panel_fabrics, most);
+        sew_elastics(garment, scene);
         for (int copy = 0; copy < copies; ++copy) append_cloth(cloth, garment_copy(garment, scene.garment, copy));
     }
     for (int i = 0; i < int(scene.sheets.size()); ++i) {

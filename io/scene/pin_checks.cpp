@@ -9,7 +9,7 @@
 namespace selvage {
 namespace {
 
-void check_vertex_list(const Scene& scene, const std::string& key, std::string_view list)
+void check_list(const Scene& scene, const std::string& key, std::string_view list)
 {
     listed_indices(list, scene.place(key));
 }
@@ -36,7 +36,10 @@ void check_motion(const Scene& scene, int index)
                          "a time above `start`, " + number_text(motion.start) + " s");
     if (motion.turns != 0 && motion.axis.norm() == 0)
         throw InputError(scene.place(path + "axis"), "[0, 0, 0]", "a direction, as the group turns");
-    check_vertex_list(scene, path + "vertices", motion.vertices);
+    check_list(scene, path + "vertices", motion.vertices);
+    check_list(scene, path + "edges", motion.edges);
+    if (!motion.edges.empty() && motion.panel.empty())
+        throw InputError(scene.place(path + "edges"), "no `panel`", "the panel of a garment whose edges are meant");
     if (motion.panel.empty())
         check_whose(scene, path + (motion.vertices.empty() ? "group" : "vertices"), !motion.vertices.empty(),
                     "the name of the panel as `panel`");
@@ -48,9 +51,11 @@ void check_hold(const Scene& scene, int index)
     const std::string path = "pins.hold[" + std::to_string(index) + "]";
     if (hold.panel.empty())
         throw InputError(scene.place(path), "no `panel`", "the name of a sheet or panel, as \"sheet[0]\"");
-    if (hold.group == PinGroup::none && hold.vertices.empty())
-        throw InputError(scene.place(path), "neither `group` nor `vertices`", "what of `" + hold.panel + "` is held");
-    check_vertex_list(scene, path + ".vertices", hold.vertices);
+    if (hold.group == PinGroup::none && hold.vertices.empty() && hold.edges.empty())
+        throw InputError(scene.place(path), "neither `group` nor `edges` nor `vertices`",
+                         "what of `" + hold.panel + "` is held");
+    check_list(scene, path + ".edges", hold.edges);
+    check_list(scene, path + ".vertices", hold.vertices);
 }
 
 }  // namespace
@@ -65,16 +70,29 @@ std::vector<int> listed_indices(std::string_view list, const InputPlace& place)
         while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
         double index = -1;
         if (!parse_number(item, index) || index < 0 || index > 2147483647.0 || index != std::floor(index))
-            throw InputError(place, "`" + std::string(item) + "`", "vertex indices from 0, separated by commas");
+            throw InputError(place, "`" + std::string(item) + "`", "indices from 0, separated by commas");
         indices.push_back(int(index));
         list.remove_prefix(std::min(comma + 1, list.size()));
     }
     return indices;
 }
 
+void check_elastics(const Scene& scene)
+{
+    for (std::size_t k = 0; k < scene.elastics.size(); ++k) {
+        const ElasticScene& elastic = scene.elastics[k];
+        const std::string path = "garment.elastic[" + std::to_string(k) + "]";
+        for (const auto& [key, value] : {std::pair{"panel", &elastic.panel}, std::pair{"edges", &elastic.edges}})
+            if (value->empty())
+                throw InputError(scene.place(path), std::string("no `") + key + "`",
+                                 "the panel and edges it is sewn to");
+        check_list(scene, path + ".edges", elastic.edges);
+    }
+}
+
 void check_pins(const Scene& scene)
 {
-    check_vertex_list(scene, "pins.vertices", scene.pins.vertices);
+    check_list(scene, "pins.vertices", scene.pins.vertices);
     const std::string how = "[[pins.hold]] with the name of the panel as `panel`";
     if (scene.pins.sheet != PinGroup::none) check_whose(scene, "pins.sheet", false, how);
     if (!scene.pins.vertices.empty()) check_whose(scene, "pins.vertices", true, how);

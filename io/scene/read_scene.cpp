@@ -42,16 +42,6 @@ REPEATED_TABLES(SCENE_TABLE)
 #undef READ_CHOICE
 #undef READ_VEC3
 
-// [garment.fabrics]: its keys are the pattern's panels, which are not known here.
-void read_inner_tables(TomlDocument& document, TableReader& reader, GarmentScene&, Scene& scene)
-{
-    const toml::table* fabrics = reader.table("fabrics");
-    if (!fabrics) return;
-    TableReader inner(document, fabrics, "garment.fabrics");
-    for (const auto& [panel, node] : *fabrics)
-        inner.read(std::string(panel.str()).c_str(), scene.panel_fabrics[std::string(panel.str())]);
-}
-
 // Tables [[outer.name]] of a table that may itself be repeated.
 template <class Table>
 void read_repeated(TomlDocument& document, TableReader& outer, const char* name, std::vector<Table>& targets)
@@ -61,6 +51,17 @@ void read_repeated(TomlDocument& document, TableReader& outer, const char* name,
         read_keys(reader, targets.emplace_back());
         reader.refuse_unknown();
     }
+}
+
+// [garment.fabrics]: its keys are the pattern's panels, which are not known here.
+void read_inner_tables(TomlDocument& document, TableReader& reader, GarmentScene&, Scene& scene)
+{
+    read_repeated(document, reader, "elastic", scene.elastics);
+    const toml::table* fabrics = reader.table("fabrics");
+    if (!fabrics) return;
+    TableReader inner(document, fabrics, "garment.fabrics");
+    for (const auto& [panel, node] : *fabrics)
+        inner.read(std::string(panel.str()).c_str(), scene.panel_fabrics[std::string(panel.str())]);
 }
 
 void read_inner_tables(TomlDocument& document, TableReader& reader, PinsScene&, Scene& scene)

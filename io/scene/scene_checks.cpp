@@ -169,6 +169,7 @@ void check_scene(const Scene& scene)
     for (int sheet = 0; sheet < int(scene.sheets.size()); ++sheet) check_sheet(scene, sheet, sheets);
     for (int body = 0; body < int(scene.bodies.size()); ++body) check_body(scene, body, names);
     check_until(scene);
+    check_elastics(scene);
     check_pins(scene);
     check_solver_of_motion(scene);
     check_response(scene);

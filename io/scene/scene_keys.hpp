@@ -22,6 +22,13 @@
     KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                            \
     VEC3(copy_offset, 0, 0, 1, "m", "way from one copy to the next")
 
+// [[garment.elastic]]: bands that are sewn, stretched, to edges of a panel.
+#define ELASTIC_KEYS(KEY, WORD, CHOICE, VEC3)                                                    \
+    WORD(panel, "", "panel to whose edges elastic is sewn")                                      \
+    WORD(edges, "", "indices of these edges, from 0 as in the pattern, separated by commas")     \
+    KEY(double, length, 0.8, "1", 0.1, 1, "length of the elastic at rest over that of the edge") \
+    KEY(double, stiffness, 20, "N", 1e-3, 1e5, "tension of the elastic at twice its length")
+
 #define SHEET_KEYS(KEY, WORD, CHOICE, VEC3)                                                                            \
     WORD(name, "", "name in messages, of its pins and in final.obj; none: sheet[0], sheet[1] ...")                     \
     CHOICE(shape, SheetShape, rectangle, "outline of the sheet")                                                       \
@@ -232,20 +239,23 @@
 #define PIN_HOLD_KEYS(KEY, WORD, CHOICE, VEC3)                                                                      \
     WORD(panel, "", "whose vertices: a sheet's name (sheet[0], sheet[1] ... without one), or a panel of a garment") \
     CHOICE(group, PinGroup, none, "which of them are held, as for pins.sheet")                                      \
+    WORD(edges, "",                                                                                                 \
+         "indices of edges of a garment's panel that are held, from 0 as in the pattern, separated by commas")      \
     WORD(vertices, "", "indices of further held vertices, from 0 in each panel, separated by commas")
 
 // [[pins.motion]]: vertices that are held and move; several are applied one after the other.
-#define PIN_MOTION_KEYS(KEY, WORD, CHOICE, VEC3)                                                                    \
-    WORD(panel, "", "whose vertices, as for pins.hold; none: those of every sheet")                                 \
-    CHOICE(group, MovingPinGroup, automatic,                                                                        \
-           "which vertices move, as for pins.sheet; they are held from the start; automatic: corners, or only the " \
-           "listed vertices")                                                                                       \
-    WORD(vertices, "", "indices of further vertices that move, from 0 in each panel, separated by commas")          \
-    KEY(double, start, 0, "s", 0, 1e6, "when the motion begins")                                                    \
-    KEY(double, end, 1, "s", 0, 1e6, "when it ends; the vertices then stay held")                                   \
-    VEC3(velocity, 0, 0, 0, "m/s", "of the group while it moves")                                                   \
-    KEY(double, turns, 0, "1", -1000, 1000, "whole turns about the axis from start to end, counter-clockwise")      \
-    VEC3(axis, 0, 0, 1, "1", "direction of the axis")                                                               \
+#define PIN_MOTION_KEYS(KEY, WORD, CHOICE, VEC3)                                                                      \
+    WORD(panel, "", "whose vertices, as for pins.hold; none: those of every sheet")                                   \
+    CHOICE(group, MovingPinGroup, automatic,                                                                          \
+           "which vertices move, as for pins.sheet; they are held from the start; automatic: corners, or only the "   \
+           "listed vertices and edges")                                                                               \
+    WORD(edges, "", "indices of edges of a garment's panel that move, from 0 as in the pattern, separated by commas") \
+    WORD(vertices, "", "indices of further vertices that move, from 0 in each panel, separated by commas")            \
+    KEY(double, start, 0, "s", 0, 1e6, "when the motion begins")                                                      \
+    KEY(double, end, 1, "s", 0, 1e6, "when it ends; the vertices then stay held")                                     \
+    VEC3(velocity, 0, 0, 0, "m/s", "of the group while it moves")                                                     \
+    KEY(double, turns, 0, "1", -1000, 1000, "whole turns about the axis from start to end, counter-clockwise")        \
+    VEC3(axis, 0, 0, 1, "1", "direction of the axis")                                                                 \
     VEC3(point, 0, 0, 0, "m", "a point of the axis")
 
 #define WIND_KEYS(KEY, WORD, CHOICE, VEC3)                                                                             \
@@ -278,6 +288,8 @@
     TABLE("body", BodyScene, BODY_KEYS, "what the cloth falls on; may be repeated")                             \
     TABLE("body.keyframe", KeyframeScene, KEYFRAME_KEYS,                                                        \
           "where a body is at a time, under its [[body]]; it moves from one to the next and stays at the last") \
+    TABLE("garment.elastic", ElasticScene, ELASTIC_KEYS,                                                        \
+          "elastic along edges of a panel, which pulls once the seams are closed; may be repeated")             \
     TABLE("pins.hold", PinHoldScene, PIN_HOLD_KEYS,                                                             \
           "vertices of one sheet or panel that are held; may be "                                               \
           "repeated")                                                                                           \

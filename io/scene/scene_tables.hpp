@@ -23,6 +23,9 @@ inline constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
     };
 SCENE_TABLES(SCENE_TABLE)
 #undef SCENE_TABLE
+struct ElasticScene {
+    ELASTIC_KEYS(SCENE_KEY, SCENE_WORD, SCENE_CHOICE, SCENE_VEC3)
+};
 struct SheetScene {
     SHEET_KEYS(SCENE_KEY, SCENE_WORD, SCENE_CHOICE, SCENE_VEC3)
 };

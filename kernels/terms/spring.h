@@ -1,4 +1,4 @@
-// Structural, shear and bend springs between two vertices, each with an over-elongation limit.
+// Structural, shear and bend springs and elastic between two vertices, each with an over-elongation limit.
 //     l = |x1 - x0|,   T = k (l - l0) up to the length L, beyond it k (L - l0) + k_L (l - L)      [N]
 //     E = integral of T dl,   f_0 = T n = -f_1,   n = (x1 - x0) / l
 //     d2E/dx2: blocks +-(k n n^T + T/l (I - n n^T))
@@ -10,11 +10,12 @@
 
 #define spring_PARAMS(STRENGTH, PARAM)                                                    \
     STRENGTH(scale, 0.0, "1", "multiplies the constants of structural and shear springs") \
-    STRENGTH(bend_scale, 0.0, "1", "multiplies the constants of bend springs")
+    STRENGTH(bend_scale, 0.0, "1", "multiplies the constants of bend springs")            \
+    STRENGTH(elastic_scale, 0.0, "1", "multiplies the constants of elastic")
 // clang-format off
 #define spring_FIELDS(READ, ADD)                                                                     \
     READ(pos) READ(spring_vertex) READ(spring_length) READ(spring_constant) READ(spring_limit)       \
-    READ(spring_bends) ADD(spring_force) ADD(spring_stiffness)
+    READ(spring_kind) ADD(spring_force) ADD(spring_stiffness)
 // clang-format on
 TERM_ARGS(spring)
 
@@ -30,7 +31,8 @@ KERNEL_FN spring_state spring_at(int spring, const spring_args* a)
 {
     int ss = a->size.spring_stride, vs = a->size.vertex_stride;
     vec3 d = load3(a->pos, vs, a->spring_vertex[ss + spring]) - load3(a->pos, vs, a->spring_vertex[spring]);
-    real scale = a->spring_bends[spring] ? a->bend_scale : a->scale;
+    int kind = a->spring_kind[spring];
+    real scale = kind == 2 ? a->elastic_scale : kind == 1 ? a->bend_scale : a->scale;
     spring_state s;
     s.length = larger(length(d), REAL(1e-12));  // coincident vertices have no direction: n = 0, and so no force
     s.n = (REAL(1) / s.length) * d;

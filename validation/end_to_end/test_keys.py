@@ -108,6 +108,9 @@ BESIDE = scene(sheet=[{"width": 0.4, "height": 0.4, "resolution": 21, "center": 
 EXPLICIT = scene(HANG, solver={"integrator": "velocity_verlet", "step": 0.01})
 SEW = {"garment": {"pattern": "plain.json", "resolution": 0.02},
        "solver": {"until": 0.05}, "output": dict(OUTPUT)}
+ELASTIC = {**SEW, "garment": {**SEW["garment"], "elastic": [{"panel": "left", "edges": "0"}]}}
+HELD_PANEL = {**SEW, "pins": {"hold": [{"panel": "left", "group": "corners"}]}}
+MOVED_PANEL = {**SEW, "pins": {"motion": [{"panel": "left", "velocity": [0.1, 0, 0]}]}}
 TURNED_PANEL = {**SEW, "garment": {"pattern": "turned.json", "resolution": 0.02}}
 SLOWLY = {**SEW, "seams": {"force_limit": 0.01}}
 BODY_BETWEEN = {**SEW, "body": [{"shape": "mesh", "mesh": "body.obj", "scale": 0.15,
@@ -171,15 +174,18 @@ CASES = {
                                                   "fabric": "matsudaira_cotton_broad"}]), True)},
     "seams": {"stiffness": (SEW, 1e3), "force_limit": (SEW, 0.5), "stiffening": (SEW, 1), "closed": (SLOWLY, 0.01),
               "max_time": (SLOWLY, 0.02), "thin": (BODY_BETWEEN, 0.5), "room": (PARTS_NEAR, 0)},
+    "garment.elastic": {"panel": (ELASTIC, "right"), "edges": (ELASTIC, "0, 2"), "length": (ELASTIC, 0.5),
+                        "stiffness": (ELASTIC, 5)},
     "pins": {"sheet": (DROP, "corners"), "vertices": (DROP, "3, 7")},
     "pins.hold": {"panel": (scene(sheet=[{"resolution": 3}, {"resolution": 3, "center": [0, 0, 2]}],
                                   pins={"hold": [{"panel": "sheet[0]", "group": "corners"}]}), "sheet[1]"),
-                  "group": (HELD, "top_edge"), "vertices": (HELD, "12")},
+                  "group": (HELD, "top_edge"), "vertices": (HELD, "12"), "edges": (HELD_PANEL, "1")},
     "pins.motion": {"panel": (scene(sheet=[{"resolution": 3}, {"resolution": 3, "center": [0, 0, 2]}], until=0.05,
                                     pins={"motion": [{"velocity": [0, 0, 1]}]}), "sheet[1]"),
                     "group": (PULLED, "center"), "vertices": (PULLED, "12"), "start": (PULLED, 0.05),
                     "end": (PULLED, 0.05), "velocity": (PULLED, [0, 0.1, 0]), "turns": (PULLED, 0.1),
-                    "axis": (TURNED, [1, 0, 0]), "point": (TURNED, [0.1, 0, 0])},
+                    "axis": (TURNED, [1, 0, 0]), "point": (TURNED, [0.1, 0, 0]),
+                    "edges": (MOVED_PANEL, "1")},
     "wind": {"velocity": (HANG, [0, 3, 0]), "still_air": (HANG, True), "density": (WIND, 1000),
              "normal_coefficient": (WIND, 2), "tangential_coefficient": (WIND, 1), "gust": (HANG, 3),
              "gust_time": (GUSTS, 0.5), "seed": (GUSTS, 2)},

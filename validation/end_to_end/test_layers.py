@@ -29,7 +29,7 @@ INNER_LAYERS = {
     "host/solver": [["host/solver/state"], ["host/solver/terms"], ["host/solver/linear", "host/solver/contact"],
                     ["host/solver/stepping"], ["host/solver/stepping/integrators"]],
     "host/styles": [["host/styles/blocks"], ["host/styles"]],
-    "bench": [["bench/harness"], ["bench/suites"], ["bench"]],
+    "bench": [["bench/harness"], ["bench/accuracy", "bench/suites"], ["bench"]],
     "validation": [["validation/measure"], ["validation/cases"], ["validation"], ["validation/unit"],
                    ["validation/unit/collision", "validation/unit/contact", "validation/unit/garment",
                     "validation/unit/io", "validation/unit/run", "validation/unit/solver"],

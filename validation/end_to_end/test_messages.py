@@ -221,6 +221,13 @@ class Messages(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertNotIn("slid off", errors)
 
+    def test_elastic_holds_a_garment_that_would_slide_off(self):
+        sewn = "".join(f'[[garment.elastic]]\npanel = "{panel}"\nedges = "2"\nlength = 0.4\nstiffness = 30\n'
+                       for panel in ("front", "back"))
+        code, errors, summary = self.drape(SKIRT + sewn, files={"skirt.json": tube_pattern(60, 30, 60, 20)})
+        self.assertEqual((code, summary["status"], summary["self"]["intersections"]), (0, "converged", 0))
+        self.assertNotIn("slid off", errors)
+
     def test_the_largest_stretch_of_the_run_is_kept_with_its_time_and_place(self):
         code, _, summary = self.drape("""
 [[sheet]]

@@ -186,9 +186,25 @@ void add_bend_springs(const Topology& topology, const std::vector<RestFace>& fac
         spring.length = length;
         spring.constant = spring.limit_constant = 4 * c * length * length / (lever * lever);
         spring.limit_length = std::numeric_limits<double>::infinity();
-        spring.bends = true;
+        spring.kind = SpringKind::bend;
         springs.push_back(spring);
     }
+}
+
+void add_elastic_springs(const Topology& topology, const Cloth& cloth, std::vector<Spring>& springs)
+{
+    for (const Elastic& elastic : cloth.elastics)
+        for (std::size_t k = 0; k + 1 < elastic.vertices.size(); ++k) {
+            const int a = elastic.vertices[k], b = elastic.vertices[k + 1];
+            Spring spring;
+            spring.vertex = {topology.particle_of[a], topology.particle_of[b]};
+            if (spring.vertex[0] == spring.vertex[1]) continue;
+            spring.length = elastic.shrink * (cloth.panel_coordinates[a] - cloth.panel_coordinates[b]).norm();
+            spring.constant = spring.limit_constant = elastic.stiffness / spring.length;
+            spring.limit_length = std::numeric_limits<double>::infinity();
+            spring.kind = SpringKind::elastic;
+            springs.push_back(spring);
+        }
 }
 
 }  // namespace
@@ -216,13 +232,15 @@ Eigen::VectorXd fit_non_negative(const Eigen::MatrixXd& moduli, const Eigen::Vec
 
 void add_springs(Topology& topology, const Cloth& cloth, const FabricTable& fabrics, const SpringChoice& choice)
 {
+    if (choice.elastic) add_elastic_springs(topology, cloth, topology.springs);
     if (!choice.membrane && !choice.bending) return;
     std::vector<RestFace> faces = rest_faces(cloth, fabrics);
     if (choice.membrane) {
         pair_rectangles(topology, cloth, faces);
         std::vector<Spring> springs;
         for (int f = 0; f < int(faces.size()); ++f) add_face_springs(topology.faces[f], faces[f], springs);
-        topology.springs = merged(std::move(springs));
+        springs = merged(std::move(springs));
+        topology.springs.insert(topology.springs.end(), springs.begin(), springs.end());
     }
     if (choice.bending) add_bend_springs(topology, faces, topology.springs);
 }
@@ -238,7 +256,7 @@ void fill_springs(State& state, const Topology& topology)
         state.spring_constant[s] = spring.constant;
         state.spring_constant[ss + s] = spring.limit_constant;
         state.spring_limit[s] = std::min(spring.limit_length, double(std::numeric_limits<float>::max()));
-        state.spring_bends[s] = spring.bends;
+        state.spring_kind[s] = int(spring.kind);
     }
 }
 

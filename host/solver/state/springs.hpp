@@ -11,6 +11,7 @@ namespace selvage {
 struct SpringChoice {
     bool membrane = false;  ///< Structural and shear springs: triangle edges, and second diagonals of near-rectangles.
     bool bending = false;   ///< Bend springs, across every hinge.
+    bool elastic = false;   ///< Along every Cloth::elastics.
 };
 
 /// The curvature at which a bend spring stores the energy of a hinge [1/m]: a fold of 2 cm radius. A straight spring
@@ -36,6 +37,9 @@ constexpr double bend_spring_curvature = 50;
 /// energy c_h theta^2 / 2, c_h = D |e|^2 / (A1 + A2), both agree at theta_r = bend_spring_curvature (h1 + h2) / 2 if
 ///     k = 4 c_h l^2 / (h1 h2 theta_r)^2        (small theta_r).
 /// Bend springs also resist stretch: stiff cloth on a coarse mesh is stiffer in its plane than its fabric.
+///
+/// Elastic of the stiffness K that is sewn to an edge at r of its length has, along each triangle edge of length e, a
+/// spring of the length r e and the constant K / (r e).
 ///
 /// A spring's limit is its elongation in cloth that is stretched both ways and sheared to the fabric's limits.
 void add_springs(Topology& topology, const Cloth& cloth, const FabricTable& fabrics, const SpringChoice& choice);

@@ -24,9 +24,9 @@ struct SewingTuning {
     // What stays a little apart at a stronger pull is welded as well: pairs in folds, next to those that are welded.
     static constexpr double reach_growth =
         0.5;  // of the gap that is welded, for each time that seams are pulled harder
-    static constexpr double reach_of_edge = 0.3;   // of an edge length: that gap at most, unless the scene says more
-    static constexpr double barrier_bears = 56;    // times its stiffness, as a pressure at 0.02 of its gap: see barrier.h
-    static constexpr int most_failures = 6;        // steps without success that sewing survives
+    static constexpr double reach_of_edge = 0.3;  // of an edge length: that gap at most, unless the scene says more
+    static constexpr double barrier_bears = 56;  // times its stiffness, as a pressure at 0.02 of its gap: see barrier.h
+    static constexpr int most_failures = 6;      // steps without success that sewing survives
     static constexpr double shortest_step = 0.05;  // of the scene's: shorter ones mean that things jam
     static constexpr int most_settling = 8;        // steps on bodies that have their size
     static constexpr double press_bending = 100;   // times the fabric's bending rigidity: laps at seams fold open
@@ -106,23 +106,6 @@ void remake_phase(SewnCloth& cloth, const SewingOptions& options, const SewingPr
 
 namespace {
 
-// Per cloth vertex: it lies within a body, or a triangle around it reaches into one.
-std::vector<char> within_bodies(const Phase& phase)
-{
-    const State& s = phase.state();
-    const int vs = s.size.vertex_stride;
-    std::vector<char> within(phase.topology().particle_of.size());
-    if (!phase.contact()) return within;
-    const CrossingFlags* flags = phase.cloth_contact() ? &phase.cloth_contact()->crossings() : nullptr;
-    for_each_item(int(within.size()), [&](int vertex) {
-        const int v = phase.topology().particle_of[vertex];
-        double above = -s.contact_offset[v];
-        for (int c = 0; c < 3; ++c) above += s.contact_normal[c * vs + v] * s.pos[c * vs + v];
-        within[vertex] = above < 0 || (flags && flags->pierced[v]);
-    });
-    return within;
-}
-
 // Steps of a cloth that is being sewn.
 class Sewing {
 public:
@@ -147,18 +130,20 @@ public:
         const auto& pairs = cloth_.model.cloth.seam_pairs;
         const double most = std::max(options_.closed, SewingTuning::reach_of_edge * options_.edge_length);
         const double reach = std::min(most, options_.closed * (1 + SewingTuning::reach_growth * progress_.harder));
-        const std::vector<char> welded = progress_.welded;
         double open_way = 0;
+        bool closed = false;
         for (std::size_t k = 0; k < pairs.size(); ++k) {
             if (progress_.welded[k]) continue;
             const double gap = (positions[pairs[k][0]] - positions[pairs[k][1]]).norm();
             progress_.welded[k] = gap <= reach;
+            closed = closed || progress_.welded[k];
             open_way += progress_.welded[k] ? 0 : gap;
         }
         change_pull(open_way / progress_.open_way);
         progress_.open_way = open_way;
-        if (progress_.welded == welded) return;
-        weld(welded, positions);
+        if (!closed) return;
+        remake_phase(cloth_, options_, progress_, positions, cloth_.phase->velocities(),
+                     cloth_.phase->system().clock());
         renew();
     }
 
@@ -196,27 +181,6 @@ public:
     }
 
 private:
-    // Makes the phase anew, with the pairs as one particle that progress has since `before`. Between two sides on a
-    // body's edge the middle lies within it: what would pass into a body from there stays two.
-    void weld(const std::vector<char>& before, const std::vector<Vec3>& positions)
-    {
-        const std::vector<Vec3> velocities = cloth_.phase->velocities();
-        const Clock clock = cloth_.phase->system().clock();
-        const std::vector<char> was_within = within_bodies(*cloth_.phase);
-        const auto& pairs = cloth_.model.cloth.seam_pairs;
-        for (bool refused = true; refused;) {
-            remake_phase(cloth_, options_, progress_, positions, velocities, clock);
-            const std::vector<char> is_within = within_bodies(*cloth_.phase);
-            const auto enters = [&](int v) { return is_within[v] && !was_within[v]; };
-            refused = false;
-            for (std::size_t k = 0; k < pairs.size(); ++k) {
-                if (!progress_.welded[k] || before[k] || !(enters(pairs[k][0]) || enters(pairs[k][1]))) continue;
-                progress_.welded[k] = 0;
-                refused = true;
-            }
-        }
-    }
-
     void renew()
     {
         control_.reset();

@@ -27,7 +27,10 @@ FieldSet required_fields(const Params& params)
     return fields;
 }
 
-SpringChoice springs_of(const Params& params) { return {params.spring.scale > 0, params.spring.bend_scale > 0}; }
+SpringChoice springs_of(const Params& params)
+{
+    return {params.spring.scale > 0, params.spring.bend_scale > 0, params.spring.elastic_scale > 0};
+}
 
 State make_state(const Topology& topology, const Cloth& cloth, const FabricTable& fabrics, const Params& params,
                  const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities)

@@ -27,7 +27,7 @@ ClothModel sheet_model(int resolution, const std::vector<PinMotionScene>& motion
     model.cloth = make_sheet(sheet, "", "sheet[0]");
     for (const PinMotionScene& motion : motions) {
         const PinGroup group = find_word<PinGroup>(word_of(motion.group)).value();
-        move_vertices(model.cloth, chosen_vertices(model.cloth, {"", group, ""}, {}, {}), motion);
+        move_vertices(model.cloth, chosen_vertices(model.cloth, {"", group, ""}, {}), motion);
     }
     model.fabrics["cotton"] = fabric_preset("cotton");
     return model;

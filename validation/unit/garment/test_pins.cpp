@@ -21,7 +21,8 @@ Cloth small_sheet(MeshFamily family = MeshFamily::automatic, const std::string& 
 
 std::vector<int> chosen(const Cloth& cloth, const PinChoice& choice)
 {
-    return chosen_vertices(cloth, choice, {"scene.toml", 0, 0, "pins.panel"}, {"scene.toml", 0, 0, "pins.vertices"});
+    const auto place = [](const std::string& key) { return InputPlace{"scene.toml", 0, 0, "pins." + key}; };
+    return chosen_vertices(cloth, choice, {place("panel"), place("vertices"), place("edges")});
 }
 
 Cloth cloth_of(const std::string& text)
@@ -84,6 +85,24 @@ TEST_CASE("pins hold vertices of a garment's panel")
             if (v >= panel.first_vertex && v < panel.first_vertex + panel.vertex_count) CHECK(panel.name == "back");
 }
 
+TEST_CASE("pins and elastic take edges of a garment's panel by their index in the pattern")
+{
+    const std::string elastic = "[[garment.elastic]]\npanel = \"back\"\nedges = \"1, 0\"\nlength = 0.7\n";
+    const Cloth cloth = cloth_of(std::string(shirt) + elastic + "[[pins.hold]]\npanel = \"front\"\nedges = \"2\"\n");
+    const auto edge_of = [&](const std::string& panel, int edge) {
+        for (const OutlineSamples& samples : cloth.outline)
+            if (cloth.panels[samples.panel].name == panel && samples.edge == edge) return samples.vertices;
+        return std::vector<int>{};
+    };
+    std::vector<int> held = edge_of("front", 2);
+    std::sort(held.begin(), held.end());
+    CHECK(cloth.pinned == held);
+    REQUIRE(cloth.elastics.size() == 2);
+    CHECK(cloth.elastics[0].vertices == edge_of("back", 1));
+    CHECK(cloth.elastics[1].vertices == edge_of("back", 0));
+    CHECK(cloth.elastics[0].shrink == 0.7);
+}
+
 TEST_CASE("a point at a seam moves once, though several of its vertices are listed")
 {
     Cloth cloth = small_sheet();
@@ -108,6 +127,11 @@ TEST_CASE("pins that could not act are refused with what they could be")
     refused(garment + "[[pins.motion]]\n", "pins.motion[0].group", "panel");
     refused(garment + "[[pins.hold]]\npanel = \"frnt\"\ngroup = \"corners\"\n", "pins.hold[0].panel", "\"front\"");
     refused(garment + "[[pins.hold]]\npanel = \"front\"\nvertices = \"99999\"\n", "pins.hold[0].vertices", "of front");
+    refused(garment + "[[pins.hold]]\npanel = \"front\"\nedges = \"99\"\n", "pins.hold[0].edges", "of front");
+    refused(garment + "[[garment.elastic]]\npanel = \"frnt\"\nedges = \"0\"\n", "elastic[0].panel", "\"front\"");
+    refused(garment + "[[garment.elastic]]\npanel = \"front\"\n", "garment.elastic[0]", "edges");
+    refused(garment + "[[garment.elastic]]\npanel = \"front\"\nedges = \"99\"\n", "elastic[0].edges", "of front");
+    refused(sheets + "[[pins.hold]]\npanel = \"upper\"\nedges = \"0\"\n", "pins.hold[0].edges", "a sheet");
     refused(sheets + "[pins]\nvertices = \"0\"\n", "pins.vertices", "\"sheet[0]\"");
     refused(sheets + "[[pins.motion]]\nvertices = \"0\"\n", "pins.motion[0].vertices", "panel");
     refused(sheets + "[[pins.hold]]\ngroup = \"corners\"\n", "pins.hold[0]", "panel");

@@ -14,7 +14,7 @@ Cloth sheet_of(int resolution)
     sheet.resolution = resolution;
     sheet.mesh_family = MeshFamily::same_diagonal;
     Cloth cloth = make_sheet(sheet, "test", "sheet[0]");
-    hold_vertices(cloth, chosen_vertices(cloth, {"", PinGroup::top_corners, ""}, {}, {}));
+    hold_vertices(cloth, chosen_vertices(cloth, {"", PinGroup::top_corners, ""}, {}));
     return cloth;
 }
 

@@ -102,6 +102,21 @@ double hanging_elongation(Params params, double limit)
 
 }  // namespace
 
+TEST_CASE("elastic stores K (1 - r)^2 / (2 r) per length of the edge along which it is sewn", "[springs]")
+{
+    Cloth cloth = grid_cloth(5, 3, 0.02);
+    cloth.elastics = {{{0, 1, 2, 3, 4}, 0.8, 30}};
+    Params params;
+    params.spring.elastic_scale = 1;
+    State state = spring_state_of(cloth, test_fabrics(), params);
+    CHECK(state.size.spring_count == 4);
+    CHECK(spring_term().energy(state, params) == Approx(30 * 0.2 * 0.2 / (2 * 0.8) * 0.08).epsilon(1e-6));
+    for (int p = 0; p < state.size.vertex_count; ++p) state.pos[p] *= 1.6;  // at twice its length its tension is K
+    const double stretched = spring_term().energy(state, params);
+    for (int p = 0; p < state.size.vertex_count; ++p) state.pos[p] *= 1.001;
+    CHECK((spring_term().energy(state, params) - stretched) / (0.08 * 1.6 * 0.001) == Approx(30).epsilon(1e-2));
+}
+
 TEST_CASE("springs on a grid show the fabric's stretch and shear stiffness, and the shear stiffness as coupling",
           "[springs]")
 {

@@ -1,5 +1,5 @@
+#include "bench/accuracy/stability_cells.hpp"
 #include "bench/harness/scene_runner.hpp"
-#include "bench/suites/stability_cells.hpp"
 #include "host/solver/stepping/step_control.hpp"
 #include "io/errors.hpp"
 #include "validation/unit/catch.hpp"

@@ -1,4 +1,4 @@
-#include "bench/suites/motion_map.hpp"
+#include "bench/accuracy/motion_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <tbb/task_arena.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/accuracy/motion_cells.hpp"
 #include "bench/harness/chart.hpp"
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
 #include "bench/harness/side_by_side.hpp"
-#include "bench/suites/motion_cells.hpp"
 #include "host/solver/stepping/integrator.hpp"
 #include "io/atomic_file.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/suites/precision_cases.hpp"
+#include "bench/accuracy/precision_cases.hpp"
 
 namespace selvage {
 

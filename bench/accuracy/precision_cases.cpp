@@ -1,4 +1,4 @@
-#include "bench/suites/precision_cases.hpp"
+#include "bench/accuracy/precision_cases.hpp"
 
 #include <algorithm>
 #include <chrono>

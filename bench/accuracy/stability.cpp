@@ -1,4 +1,4 @@
-#include "bench/suites/stability.hpp"
+#include "bench/accuracy/stability.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,11 @@
 #include <tbb/task_arena.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/accuracy/stability_cells.hpp"
 #include "bench/harness/chart.hpp"
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
 #include "bench/harness/side_by_side.hpp"
-#include "bench/suites/stability_cells.hpp"
 #include "host/solver/stepping/integrator.hpp"
 #include "io/atomic_file.hpp"
 

@@ -1,4 +1,4 @@
-#include "bench/suites/precision_front.hpp"
+#include "bench/accuracy/precision_front.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "bench/suites/motion_cells.hpp"
+#include "bench/accuracy/motion_cells.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "bench/suites/work_precision.hpp"
+#include "bench/accuracy/work_precision.hpp"
 
 #include <filesystem>
 #include <iostream>
@@ -7,10 +7,10 @@
 #include <tbb/task_arena.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/accuracy/precision_front.hpp"
 #include "bench/harness/chart.hpp"
 #include "bench/harness/machine.hpp"
 #include "bench/harness/options.hpp"
-#include "bench/suites/precision_front.hpp"
 #include "host/scene/run_settings.hpp"
 #include "io/atomic_file.hpp"
 

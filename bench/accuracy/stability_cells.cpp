@@ -1,4 +1,4 @@
-#include "bench/suites/stability_cells.hpp"
+#include "bench/accuracy/stability_cells.hpp"
 
 #include <cmath>
 
