@@ -6,9 +6,9 @@
 namespace selvage {
 namespace {
 
-constexpr double cuff_height = 0.055, cuff_ease = 0.07;                     // [m]
-constexpr double sleeve_fullness = 1.12;                                    // of the sleeve's hem over the cuff
-constexpr double stand_height = 0.030, fall_height = 0.045, point = 0.020;  // of the collar [m]
+constexpr double cuff_height = 0.055, cuff_ease = 0.07;       // [m]
+constexpr double sleeve_fullness = 1.12;                      // of the sleeve's hem over the cuff
+constexpr double collar_width = 0.055, collar_point = 0.015;  // [m]
 
 }  // namespace
 
@@ -51,8 +51,8 @@ Pattern draft_shirt(const StyleBody& body)
     const double hem =
         add_sleeves(garment, {.ease = 0.12, .length = under, .cuff = sleeve_fullness * cuff}, body, armholes);
     add_cuffs(garment, body, cuff, cuff_height, hem + StartGaps::panels);
-    add_collar(garment, body, {"left_front.neck", "right_front.neck"}, {"back.left_neck", "back.right_neck"},
-               {stand_height, fall_height, point});
+    add_flat_collar(garment, draft_half_bodice(true, style, body), draft_half_bodice(false, style, body), whole.panel,
+                    back.panel, collar_width, collar_point);
     return garment.pattern();
 }
 

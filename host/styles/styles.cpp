@@ -13,7 +13,7 @@ namespace {
 constexpr Style catalogue[] = {
     {"tshirt", "T-shirt with a neck band and short sleeves", draft_tshirt},
     {"vest", "vest without sleeves", draft_vest},
-    {"shirt", "buttoned shirt with a collar on a stand and long sleeves with cuffs", draft_shirt},
+    {"shirt", "buttoned shirt with a flat collar and long sleeves with cuffs", draft_shirt},
     {"hoody", "hoody with long sleeves with cuffs", draft_hoody},
     {"dress", "dress without sleeves, with bust and waist darts and a seam at the waist", draft_dress},
     {"trousers", "trousers with darts and a waistband", draft_trousers},

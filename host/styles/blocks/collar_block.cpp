@@ -8,75 +8,66 @@
 namespace selvage {
 namespace {
 
-constexpr double stand_lift = 0.030;   // of a stand above the sides of the neck at the start [m]
-constexpr double fall_around = 0.014;  // from the stand to the fall that hangs around it [m]
-// The fall starts so far above the foot of the stand that its seam closes after those of the neckline: lower it would
-// be in their way [m].
-constexpr double fall_lift = 0.10;
-constexpr double fall_radius = 0.70;  // of the seam of the fall [m]
-constexpr double hood_lift = 0.030;   // of a hood above the sides of the neck at the start [m]
-constexpr double hood_ease = 0.06;    // height of a hood beyond that of the head above the neck [m]
-constexpr double hood_bulge = 0.05;   // of the back of the head beyond the neckline [m]
+constexpr double collar_lift = 0.012;  // from the bodice to a collar that lies on it, at the start [m]
+constexpr double ends_apart = 0.003;   // from the middle to each end of a collar at the start [m]
+constexpr double hood_lift = 0.030;    // of a hood above the sides of the neck at the start [m]
+constexpr double hood_ease = 0.06;     // height of a hood beyond that of the head above the neck [m]
+constexpr double hood_bulge = 0.05;    // of the back of the head beyond the neckline [m]
 
 Vec3 neck_axis(const StyleBody& body, double height)
 {
     return {0, 0.5 * (body.neck_front.y() + body.neck_back.y()), height};
 }
 
-// Adds the lower edge of a strip around the neck, from the left of the front around the back to the right.
-void add_neck_edge(PanelDraft& strip, const std::array<double, 4>& lengths)
+// Half a flat collar in the coordinates of the bodice's half, from the middle of its outer edge to that of the neck.
+PanelDraft draft_half_collar(const PanelDraft& bodice, bool front, double width, double point)
 {
-    const std::array<const char*, 4> names{"left_front", "left_back", "right_back", "right_front"};
-    for (int k = 0; k < 4; ++k) {
-        const Vec2 from = strip.panel.vertices.back();
-        strip.line({from.x() + lengths[k], 0}, names[k]);
-    }
+    const std::vector<Vec2>& corners = bodice.panel.vertices;
+    const Vec2 shoulder = corners[3], neck = corners[4], middle = corners[5];
+    const std::array<Vec2, 2>& control = bodice.panel.edges[4].control;
+    const Vec2 at_shoulder = neck + width * (shoulder - neck).normalized();
+    const double longer = at_shoulder.x() / neck.x();
+    const Vec2 tip = front ? Vec2(0.35 * neck.x(), middle.y() - width - point) : Vec2(0, middle.y() - width);
+    PanelDraft half(front ? "left_collar" : "collar_back", front ? middle : tip);
+    if (front) half.line(tip, "front");
+    half.curve({longer * control[1].x(), tip.y()}, {at_shoulder.x(), 0.5 * (tip.y() + at_shoulder.y())}, at_shoulder,
+               "edge");
+    half.line(neck, "shoulder").curve(control[0], control[1], middle, "neck");
+    return half;
+}
+
+// Lays a collar over a placed panel: its outside faces the bodice, as it does when the collar is turned down.
+void lay_over(PanelDraft& collar, const PatternPanel& place, double aside)
+{
+    collar.panel.rotation = place.rotation;
+    collar.panel.rotation.col(0) *= -1;
+    collar.panel.rotation.col(2) *= -1;
+    collar.panel.translation = place.translation + collar_lift * place.rotation.col(2) + aside * place.rotation.col(0);
+    collar.panel.wrap = place.wrap;
+    collar.panel.wrap->behind = !place.wrap->behind;
 }
 
 }  // namespace
 
-void add_collar(PatternDraft& garment, const StyleBody& body, const NeckEdges& front, const NeckEdges& back,
-                const CollarStyle& style)
+void add_flat_collar(PatternDraft& garment, const PanelDraft& front, const PanelDraft& back,
+                     const PatternPanel& front_place, const PatternPanel& back_place, double width, double point)
 {
-    const double front_length = garment.length(front[0]), back_length = garment.length(back[0]);
-    const double half = front_length + back_length;
-    const std::array<double, 4> lengths{front_length, back_length, back_length, front_length};
-    PanelDraft stand("collar_stand", {-half, 0});
-    add_neck_edge(stand, lengths);
-    stand.line({half, style.stand}, "right_end").line({-half, style.stand}, "top").close("left_end");
-    // The fall is a part of a ring: its free edge goes around the stand and is longer than the sewn one.
-    const double turn = half / fall_radius, outer = fall_radius + style.fall;
-    const Vec2 end(std::sin(turn), std::cos(turn)), centre(0, -fall_radius);
-    PanelDraft fall("collar", centre + fall_radius * mirrored(end));
-    fall.arc(fall_radius, false, centre + fall_radius * end, "stand");
-    fall.line(centre + (outer + style.point) * end, "right_end");
-    fall.curve(centre + outer * Vec2(std::sin(0.6 * turn), std::cos(0.6 * turn)) / std::cos(0.1 * turn),
-               centre + outer * Vec2(-std::sin(0.6 * turn), std::cos(0.6 * turn)) / std::cos(0.1 * turn),
-               centre + (outer + style.point) * mirrored(end), "edge");
-    fall.close("left_end");
-
-    std::vector<Vec3> neck = body.trunk;
-    neck.insert(neck.end(), body.head.begin(), body.head.end());
-    const double bottom = body.neck_side_height + stand_lift;
-    roll_around(stand.panel, neck, neck_axis(body, bottom), -Vec3::UnitZ(), Vec3::UnitY(), 0, StartGaps::neck);
-    // The fall hangs down, its outside towards the neck.
-    const double top = bottom + style.fall + style.point + fall_lift;
-    roll_around(fall.panel, neck, neck_axis(body, top), Vec3::UnitZ(), Vec3::UnitY(), 0, StartGaps::neck);
-    const double radius = std::max(fall.panel.wrap->radius, stand.panel.wrap->radius + fall_around);
-    fall.panel.rotation = stand.panel.rotation;
-    fall.panel.rotation.col(1) *= -1;
-    fall.panel.rotation.col(2) *= -1;
-    fall.panel.translation = neck_axis(body, top) + radius * Vec3::UnitY();
-    fall.panel.wrap = PanelWrap{.radius = radius, .x0 = 0, .behind = true};
-    garment.add(stand);
-    garment.add(fall);
-    for (const int side : {0, 1}) {
-        const std::string name = side == 0 ? "collar_stand.left_" : "collar_stand.right_";
-        garment.sew(name + "front", front[side]);
-        garment.sew(name + "back", back[side]);
+    // Turned down, the panels are the mirror images of what is seen from outside: x of the left is at x < 0.
+    const PanelDraft half = draft_half_collar(front, true, width, point);
+    PanelDraft left = mirrored(half, "left_collar"), right = half;
+    right.panel.name = "right_collar";
+    PanelDraft behind = unfolded(draft_half_collar(back, false, width, point), true);
+    lay_over(left, front_place, ends_apart);
+    lay_over(right, front_place, -ends_apart);
+    lay_over(behind, back_place, 0);
+    garment.add(left);
+    garment.add(right);
+    garment.add(behind);
+    for (const std::string side : {"left", "right"}) {
+        garment.sew(side + "_collar.neck", side + "_front.neck");
+        garment.sew("collar_back." + side + "_neck", "back." + side + "_neck");
+        garment.sew(side + "_collar.shoulder", "collar_back." + side + "_shoulder");
     }
-    garment.sew("collar_stand.left_end", "collar_stand.right_end");
-    garment.sew("collar_stand.top", "collar.stand");
 }
 
 void add_hood(PatternDraft& garment, const StyleBody& body, const NeckEdges& front, const NeckEdges& back)
