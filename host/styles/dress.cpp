@@ -9,11 +9,11 @@ namespace selvage {
 namespace {
 
 // Eases and darts of a close fit, after Aldrich's bodice and skirt blocks [m].
-constexpr double bust_ease = 0.08, waist_ease = 0.04, hip_ease = 0.06, hem_flare = 0.05;
-constexpr double bust_dart = 0.028;       // width at the side
-constexpr double bust_dart_drop = 0.045;  // from the underarm to the dart
-constexpr double dart_to_point = 0.025;   // the ends of darts stay off the point of the bust
-constexpr Dart front_dart{.at = 0.45, .width = 0.03, .depth = 0.10};
+constexpr double bust_ease = 0.10, waist_ease = 0.04, hip_ease = 0.06, hem_flare = 0.05;
+constexpr double bust_dart = 0.028;                    // width at the side
+constexpr double bust_dart_drop = 0.045;               // from the underarm to the dart
+constexpr double dart_to_point = 0.025;                // the ends of darts stay off the point of the bust
+constexpr Dart front_dart{.at = 0.45, .width = 0.03};  // up to the point of the bust
 constexpr Dart back_dart{.at = 0.45, .width = 0.03, .depth = 0.14};
 constexpr Dart skirt_front_dart{.at = 0.45, .width = 0.02, .depth = 0.09};
 constexpr Dart skirt_back_dart{.at = 0.45, .width = 0.03, .depth = 0.12};
@@ -42,7 +42,8 @@ PanelDraft draft_bodice_half(bool front, const BodiceStyle& style, const StyleBo
     const Vec2 underarm = block.panel.vertices[2];
     const double share = curve_of(m.bust, m, 0.20), mouth = share * bust_dart;
     const double waist_y = -m.neck_to_waist - (front ? mouth : 0);
-    const Dart dart = scaled(front ? front_dart : back_dart, share);
+    Dart dart = scaled(front ? front_dart : back_dart, share);
+    if (front) dart.depth = std::max(0.03, body.bust_height - body.waist_height + mouth - dart_to_point);
     const Vec2 side(quarter_waist(m) + dart.width, waist_y);
     PanelDraft half(front ? "front" : "back", {0, waist_y});
     add_waistline(half, side, dart, false);
@@ -99,7 +100,7 @@ Pattern draft_dress(const StyleBody& body)
     style.front_neck_depth = 0.5 * m.neck_width + 0.03;
     style.back_neck_depth = 0.03;
     style.shoulder_extension = -0.015;
-    style.armscye_drop = 0.030;
+    style.armscye_drop = 0.045;
     PatternDraft garment;
     for (const bool front : {true, false}) {
         PanelDraft bodice = unfolded(draft_bodice_half(front, style, body), front);

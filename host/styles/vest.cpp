@@ -15,7 +15,7 @@ Pattern draft_vest(const StyleBody& body)
     style.front_neck_depth = m.neck_width;
     style.back_neck_depth = 0.035;
     style.shoulder_extension = -0.012;
-    style.armscye_drop = 0.035;
+    style.armscye_drop = 0.045;
     PatternDraft garment;
     for (const bool front : {true, false}) {
         PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);

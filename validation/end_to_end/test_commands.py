@@ -8,7 +8,7 @@ import time
 import unittest
 
 PROGRAM = os.environ.get("SELVAGE", "build/selvage")
-COMMANDS = ["drape", "plan", "check", "render", "info", "scenes", "fabrics", "schema", "bench"]
+COMMANDS = ["drape", "plan", "check", "render", "info", "styles", "scenes", "fabrics", "schema", "bench"]
 
 
 def run(*arguments):

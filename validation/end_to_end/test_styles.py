@@ -41,7 +41,8 @@ class Styles(unittest.TestCase):
             self.assertEqual(checked.stdout.split(":")[1], built_in.stdout.split(":")[1])
 
     def test_unknown_styles_and_bodies_are_refused(self):
-        for arguments, word in [(["styles", "tshrt"], "tshirt"), (["styles", "vest", "--body", "none.obj"], "none.obj")]:
+        for arguments, word in [(["styles", "tshrt"], "tshirt"),
+                                (["styles", "vest", "--body", "none.obj"], "none.obj")]:
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(word, result.stderr)
