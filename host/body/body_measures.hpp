@@ -30,7 +30,7 @@ struct LimbSection {
     double girth = 0;            ///< Of a tape around it [m].
 };
 
-/// The centre line of a limb, from the trunk to its tip: arms from the armpit to the fingers, in sections across them;
+/// The centre line of a limb, from the trunk to its tip: arms from the armpit to the palm, in sections across them;
 /// legs from below the crotch to the foot, in level sections.
 struct LimbLine {
     std::string name;  ///< `left_arm`, `right_arm`, `left_leg` or `right_leg`.

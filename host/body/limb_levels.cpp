@@ -12,7 +12,8 @@ namespace {
 /// Where levels are looked for, over the height.
 struct LimbWindows {
     static constexpr double step = 0.0025;
-    static constexpr double line_step = 0.015, line_end = 0.03;    // of the centre lines; from the tip of hand or foot
+    // Of the centre lines; from the tip of the hand, beyond which sections cut through fingers; above the ground.
+    static constexpr double line_step = 0.015, palm = 0.075, sole = 0.03;
     static constexpr double axis_half = 0.025;                     // half the piece of an arm that gives its axis
     static constexpr double around = 0.08;                         // how far the skin of a section lies along the arm
     static constexpr double wrist_low = 0.085, wrist_high = 0.15;  // from the tip of the hand; a hand has 0.108
@@ -105,7 +106,7 @@ std::vector<LimbTape> arm_line(const Anatomy& body, int side)
     const double h = body.height, armpit = body.limbs.from_hand[side][body.limbs.armpits[side]];
     const Arm arm(body, side);
     std::vector<LimbTape> line;
-    for (double d = armpit; d > LimbWindows::line_end * h; d -= LimbWindows::line_step * h)
+    for (double d = armpit; d > LimbWindows::palm * h; d -= LimbWindows::line_step * h)
         if (std::optional<LimbTape> found = arm.at(d)) line.push_back(std::move(*found));
     return line;
 }
@@ -128,8 +129,8 @@ std::optional<LimbTape> leg_at(const Anatomy& body, int side, double z)
 std::vector<LimbTape> leg_line(const Anatomy& body, int side)
 {
     std::vector<LimbTape> line;
-    for (double z = body.crotch - LimbWindows::thigh_below_crotch * body.height;
-         z > LimbWindows::line_end * body.height; z -= LimbWindows::line_step * body.height)
+    for (double z = body.crotch - LimbWindows::thigh_below_crotch * body.height; z > LimbWindows::sole * body.height;
+         z -= LimbWindows::line_step * body.height)
         if (std::optional<LimbTape> found = leg_at(body, side, z)) line.push_back(std::move(*found));
     return line;
 }

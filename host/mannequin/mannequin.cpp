@@ -69,8 +69,10 @@ TriangleMesh make_mannequin(const MannequinMeasures& measures, const InputPlace&
     const double margin = 0.08, hand = 0.22 * measures.stature / 1.70;
     const Vec3 finger = at.wrist[0] + hand * at.arm_direction[0];
     const double side = std::max(finger.x(), 0.5 * measures.hips / 2) + margin;
-    TriangleMesh mesh =
-        surface_net(shape, {-side, at.front - 2 * margin, -0.03}, {side, at.back + margin, measures.stature + 0.03});
+    SurfaceNetOptions options;
+    options.spacing *= std::min(measures.stature / 1.70, 1.0);  // children have thinner hands
+    TriangleMesh mesh = surface_net(shape, {-side, at.front - 2 * margin, -0.03},
+                                    {side, at.back + margin, measures.stature + 0.03}, options);
     name_parts(mesh, shape);
     return mesh;
 }

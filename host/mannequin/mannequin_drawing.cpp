@@ -35,14 +35,14 @@ const std::vector<TubeStation> arm_table{
     {1.00, -0.027, 0, 0.0265, 0.0215, 0.0215}};
 
 /// t is the distance beyond the wrist.
-const std::vector<TubeStation> hand_table{{0.035, -0.030, 0, 0.0340, 0.0185, 0.0185},
-                                          {0.075, -0.034, 0, 0.0420, 0.0175, 0.0175},
-                                          {0.120, -0.038, 0, 0.0385, 0.0150, 0.0150},
-                                          {0.160, -0.041, 0, 0.0290, 0.0120, 0.0120}};
+const std::vector<TubeStation> hand_table{{0.035, -0.030, 0, 0.0340, 0.0205, 0.0205},
+                                          {0.075, -0.034, 0, 0.0405, 0.0215, 0.0215},
+                                          {0.120, -0.038, 0, 0.0370, 0.0195, 0.0195},
+                                          {0.160, -0.041, 0, 0.0270, 0.0165, 0.0165}};
 
-const std::vector<TubeStation> thumb_table{{0.000, 0, 0, 0.0150, 0.0145, 0.0145},
-                                           {0.045, 0, 0, 0.0135, 0.0130, 0.0130},
-                                           {0.075, 0, 0, 0.0115, 0.0110, 0.0110}};
+const std::vector<TubeStation> thumb_table{{0.000, 0, 0, 0.0165, 0.0160, 0.0160},
+                                           {0.050, 0, 0, 0.0150, 0.0145, 0.0145},
+                                           {0.085, 0, 0, 0.0130, 0.0125, 0.0125}};
 
 /// t is the height; sections below the knee scale with the stature, above with
 /// the hips.

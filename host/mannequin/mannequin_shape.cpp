@@ -101,10 +101,10 @@ double MannequinShape::arm(const Vec3& point) const
 {
     const Vec3 p = arm_frame(point);
     const double limb = arm_.distance(p.x(), p.y(), p.z());
-    const double tilt = 0.55;  // Of the thumb away from the arm's axis [rad].
+    const double tilt = 0.80;  // Of the thumb away from the arm's axis [rad].
     const double t = p.x() - wrist_ - 0.020 * scale_, u = p.y() + 0.030 * scale_;
     const double along = t * std::cos(tilt) - u * std::sin(tilt), across = t * std::sin(tilt) + u * std::cos(tilt);
-    return smooth_union(limb, thumb_.distance(along, across, p.z() - hand_offset_), 0.022 * scale_);
+    return smooth_union(limb, thumb_.distance(along, across, p.z() - hand_offset_), 0.016 * scale_);
 }
 
 double MannequinShape::trunk(const Vec3& point) const
