@@ -9,6 +9,7 @@
 namespace selvage {
 namespace {
 
+constexpr double adult_armscye = 0.165;   // depth of the armhole for which a style's drop is meant [m]
 constexpr double farthest_sleeve = 0.20;  // from the shoulder to the top of a sleeve at the start [m]
 
 /// Half a neckline: from the shoulder end, x > 0, to the middle, x = 0, with the control points of its curve.
@@ -76,7 +77,8 @@ PanelDraft draft_half_bodice(bool front, const BodiceStyle& style, const StyleBo
     const Neckline line = neckline(front, {neck_end(style, body), 0}, neck_depth(front, style));
     const double shoulder_x = 0.5 * m.shoulder_width + style.shoulder_extension;
     const Vec2 shoulder(shoulder_x, -shoulder_slope(body) * (shoulder_x - line.end.x()));
-    const Vec2 underarm(0.25 * (m.bust + style.bust_ease), -m.armscye_depth - style.armscye_drop);
+    const double drop = style.armscye_drop * std::min(1.0, m.armscye_depth / adult_armscye);
+    const Vec2 underarm(0.25 * (m.bust + style.bust_ease), -m.armscye_depth - drop);
     const Vec2 hem(style.flare * underarm.x(), -style.length);
     const Vec2 seam = (line.end - shoulder).normalized(), across_seam(-seam.y(), seam.x());
     const double scoop = front ? 0.022 : 0.008;
@@ -116,7 +118,7 @@ PanelDraft draft_sleeve(const SleeveStyle& style, double front_armhole, double b
     });
     const double front = cap_width(front_armhole, height), back = cap_width(back_armhole, height);
     const auto front_controls = cap_controls(front, height), back_controls = cap_controls(back, height);
-    const double taper = 0.5 * (girth - style.cuff);
+    const double taper = 0.5 * (front + back - style.cuff);
     // Seen from outside with the cap upwards, the left sleeve's front is on the panel's left.
     PanelDraft sleeve("left_sleeve", {taper - front, -style.length});
     sleeve.line({back - taper, -style.length}, "hem").line({back, 0}, "back_under");

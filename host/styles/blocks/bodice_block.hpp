@@ -16,7 +16,7 @@ struct BodiceStyle {
     double neck_ease = 0.012;      ///< From the side of the neck out to the neck end of the shoulder.
     double front_neck_depth = 0.095, back_neck_depth = 0.025;  ///< Below the neck end of the shoulder.
     double shoulder_extension = 0;                             ///< Outward shift from the shoulder point.
-    double armscye_drop = 0.030;                               ///< Depth of the underarm below the armpit.
+    double armscye_drop = 0.030;                               ///< Depth of the underarm below the armpit, of an adult.
 };
 
 /// Returns half of the front or back of a bodice, x >= 0, from the middle of the hem to the middle of the neck; y = 0
