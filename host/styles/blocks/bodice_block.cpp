@@ -162,7 +162,9 @@ void add_cuffs(PatternDraft& garment, const StyleBody& body, double girth, doubl
         cuff.line({0.5 * girth, -height}, "edge").line({0.5 * girth, 0}, "end").line({-0.5 * girth, 0}, "sleeve");
         cuff.close("other_end");
         const auto [joint, along, outward] = arm_axis(body, side);
-        roll_around(cuff.panel, body.arm[side], joint + beyond * along, along, outward);
+        // Beyond the wrist a cuff would start around the hand and be caught there: it starts within the sleeve.
+        const double before_hand = (body.wrist[side] - joint).dot(along) - height;
+        roll_around(cuff.panel, body.arm[side], joint + std::min(beyond, before_hand) * along, along, outward);
         garment.add(cuff);
         garment.sew(hand + "_cuff.sleeve", hand + "_sleeve.hem");
         garment.sew(hand + "_cuff.end", hand + "_cuff.other_end");

@@ -56,7 +56,7 @@ double add_sleeves(PatternDraft& garment, const SleeveStyle& style, const StyleB
 
 /// Adds a cuff to each sleeve: a band around the wrist, `left_cuff` and `right_cuff`, sewn to the sleeve's hem.
 /// @param girth, height  of the band [m]
-/// @param beyond         from the shoulder along the arm to where the cuffs start [m]
+/// @param beyond         from the shoulder along the arm to where the cuffs start, unless that is the hand [m]
 void add_cuffs(PatternDraft& garment, const StyleBody& body, double girth, double height, double beyond);
 
 /// Sews shoulders and sides of `front` and `back`.
