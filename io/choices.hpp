@@ -41,6 +41,7 @@
 #define PIN_GROUPS(WORD) WORD(none) SHEET_RIMS(WORD) WORD(two_rows) WORD(center)
 #define MOVING_PIN_GROUPS(WORD) WORD(automatic) SHEET_RIMS(WORD) WORD(two_rows) WORD(center)
 
+#define ARRANGEMENTS(WORD) WORD(automatic) WORD(always) WORD(never)
 #define POSITION_GRIDS(WORD) WORD(lossless) WORD(fine_8um, "8um") WORD(coarse_60um, "60um")
 
 #define CHOICES(CHOICE)                                  \
@@ -64,6 +65,7 @@
     CHOICE(BendingModel, BENDING_MODELS)                 \
     CHOICE(PinGroup, PIN_GROUPS)                         \
     CHOICE(MovingPinGroup, MOVING_PIN_GROUPS)            \
+    CHOICE(ArrangementChoice, ARRANGEMENTS)              \
     CHOICE(PositionGrid, POSITION_GRIDS)
 
 namespace selvage {

@@ -25,6 +25,7 @@
 #include "host/scene/pin_meetings.hpp"
 #include "host/scene/scene_pins.hpp"
 #include "host/solver/contact/contact_tuning.hpp"
+#include "host/styles/arrange.hpp"
 #include "host/styles/styles.hpp"
 #include "io/memory.hpp"
 #include "io/pattern/pattern_json.hpp"
@@ -86,14 +87,14 @@ void find_limits(const Scene& scene, SceneModel& model)
              "leave some vertices free"});
 }
 
+bool is_person(const BodyScene& body) { return body.shape == BodyShape::mannequin || body.shape == BodyShape::mesh; }
+
 // Returns the body for which a built-in pattern is drafted: a mannequin of garment.size where that is given, of the
 // figure of the scene's own; otherwise the first body of the scene that may be a person; otherwise a mannequin of the
 // default size.
 StyleBody body_to_dress(const Scene& scene, const std::vector<Body>& bodies)
 {
-    const auto first = std::ranges::find_if(scene.bodies, [](const BodyScene& body) {
-        return body.shape == BodyShape::mannequin || body.shape == BodyShape::mesh;
-    });
+    const auto first = std::ranges::find_if(scene.bodies, is_person);
     const bool person = first != scene.bodies.end();
     const auto index = first - scene.bodies.begin();
     if (person && !scene.places.contains("garment.size"))
@@ -103,6 +104,27 @@ StyleBody body_to_dress(const Scene& scene, const std::vector<Body>& bodies)
     return style_body(make_mannequin(mannequin_size(scene.garment.size, figure, place)), place);
 }
 
+// Places the panels of a pattern file where it does not, or where the scene asks for it.
+void arrange_panels(const Scene& scene, const std::vector<Body>& bodies, Pattern& pattern)
+{
+    const ArrangementChoice choice = scene.garment.arrange;
+    const bool asked = choice == ArrangementChoice::always || !scene.panel_parts.empty();
+    if (choice == ArrangementChoice::never && !scene.panel_parts.empty())
+        throw InputError(scene.place("garment.arrange"), "`never` beside [garment.parts]", "one of the two");
+    const bool dresses = std::ranges::any_of(scene.bodies, is_person);
+    if (asked && !dresses)
+        throw InputError(scene.place("garment.arrange"), "no person among the bodies",
+                         "a [[body]] of shape \"mesh\" or \"mannequin\" on which panels can be placed");
+    if (!asked && (choice == ArrangementChoice::never || !dresses || !is_unplaced(pattern))) return;
+    arrange(pattern, body_to_dress(scene, bodies), scene.panel_parts);
+    pattern.findings.push_back(
+        {"arranged",
+         {},
+         fmt::format("the {} panels are placed on the body by their names and seams", pattern.panels.size()),
+         {},
+         Severity::note});
+}
+
 Pattern read_pattern(const Scene& scene, const std::vector<Body>& bodies)
 {
     const std::string& name = scene.garment.pattern;
@@ -110,6 +132,7 @@ Pattern read_pattern(const Scene& scene, const std::vector<Body>& bodies)
                           ? draft_style(name.substr(builtin_prefix.size()), body_to_dress(scene, bodies))
                           : read_pattern_json(scene.resolve(name), {scene.garment.up_axis, scene.garment.rotation_order,
                                                                     scene.places.contains("garment.rotation_order")});
+    if (!is_builtin(name)) arrange_panels(scene, bodies, pattern);
     if (pattern.file.empty()) pattern.file = name;
     for (PatternPanel& panel : pattern.panels) panel.translation += scene.garment.translation;
     return pattern;

@@ -125,6 +125,7 @@ std::map<std::string, std::string> scene_values(const Scene& scene)
     const Table garment{scene, "garment.", values};
     garment.put_file("pattern", scene.garment.pattern);
     for (const auto& [panel, fabric] : scene.panel_fabrics) values["garment.fabrics." + panel] = fabric;
+    for (const auto& [panel, part] : scene.panel_parts) values["garment.parts." + panel] = part;
     for (std::size_t e = 0; e < scene.elastics.size(); ++e)
         put_keys({scene, fmt::format("garment.elastic[{}].", e), values}, scene.elastics[e]);
     for (std::size_t s = 0; s < scene.sheets.size(); ++s) {

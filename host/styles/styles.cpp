@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/styles/blocks/placement.hpp"
 #include "io/errors.hpp"
 
 namespace selvage {
@@ -20,18 +21,6 @@ constexpr Style catalogue[] = {
     {"gathered_skirt", "skirt of two rectangles, gathered to a waistband", draft_gathered_skirt},
     {"circle_skirt", "skirt of a whole circle with a waistband", draft_circle_skirt},
 };
-
-// Moves a pattern from the body's own frame into that of its mesh.
-void move_to_mesh(Pattern& pattern, const BodyFrame& frame)
-{
-    const Vec3 origin = frame.to_file(Vec3::Zero());
-    Mat3 turn;
-    for (int axis = 0; axis < 3; ++axis) turn.col(axis) = frame.to_file(Vec3::Unit(axis)) - origin;
-    for (PatternPanel& panel : pattern.panels) {
-        panel.translation = frame.to_file(panel.translation);
-        panel.rotation = turn * panel.rotation;
-    }
-}
 
 }  // namespace
 

@@ -111,6 +111,8 @@ constexpr KeyRule rules[] = {
     {"garment", "size", builtin_pattern, "a built-in pattern", "garment.pattern"},
     {"garment", "up_axis rotation_order", [](const Element& e) { return !builtin_pattern(e); },
      "a pattern file, not a built-in pattern", "garment.pattern"},
+    {"garment", "arrange", [](const Element& e) { return !builtin_pattern(e); },
+     "a pattern file: built-in patterns are drafted in their places", "garment.pattern"},
     {"garment", "copy_offset", [](const Element& e) { return e.scene.garment.copies > 1; }, "copies above 1",
      "garment.copies"},
 

@@ -53,15 +53,22 @@ void read_repeated(TomlDocument& document, TableReader& outer, const char* name,
     }
 }
 
-// [garment.fabrics]: its keys are the pattern's panels, which are not known here.
+// A table whose keys are the pattern's panels, which are not known here.
+void read_panel_words(TomlDocument& document, TableReader& garment, const char* name,
+                      std::map<std::string, std::string>& words)
+{
+    const toml::table* table = garment.table(name);
+    if (!table) return;
+    TableReader inner(document, table, std::string("garment.") + name);
+    for (const auto& [panel, node] : *table)
+        inner.read(std::string(panel.str()).c_str(), words[std::string(panel.str())]);
+}
+
 void read_inner_tables(TomlDocument& document, TableReader& reader, GarmentScene&, Scene& scene)
 {
     read_repeated(document, reader, "elastic", scene.elastics);
-    const toml::table* fabrics = reader.table("fabrics");
-    if (!fabrics) return;
-    TableReader inner(document, fabrics, "garment.fabrics");
-    for (const auto& [panel, node] : *fabrics)
-        inner.read(std::string(panel.str()).c_str(), scene.panel_fabrics[std::string(panel.str())]);
+    read_panel_words(document, reader, "fabrics", scene.panel_fabrics);
+    read_panel_words(document, reader, "parts", scene.panel_parts);
 }
 
 void read_inner_tables(TomlDocument& document, TableReader& reader, PinsScene&, Scene& scene)

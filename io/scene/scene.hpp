@@ -28,6 +28,7 @@ struct Scene {
     SCENE_TABLES(SCENE_TABLE)
 #undef SCENE_TABLE
     std::map<std::string, std::string> panel_fabrics;  ///< [garment.fabrics]: panel name to fabric name.
+    std::map<std::string, std::string> panel_parts;    ///< [garment.parts]: panel name to what it covers.
     std::vector<ElasticScene> elastics;                ///< [[garment.elastic]]
     std::vector<SheetScene> sheets;                    ///< [[sheet]]
     std::vector<BodyScene> bodies;                     ///< [[body]]

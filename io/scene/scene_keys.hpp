@@ -10,16 +10,20 @@
 // A default of `automatic` means: not given, chosen by the program.
 // clang-format on
 
-#define GARMENT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                       \
-    WORD(pattern, "", "pattern file (GarmentCode JSON), or a built-in pattern as builtin:tshirt")                   \
-    KEY(double, resolution, 0.01, "m", 1e-4, 0.2, "target edge length of the triangles")                            \
-    WORD(fabric, "cotton", "fabric of all panels: a preset's name or a [fabric.NAME] table")                        \
-    CHOICE(size, BodySize, M, "mannequin for which a built-in pattern is drafted; not given: the scene's own body") \
-    CHOICE(up_axis, PatternAxis, automatic, "up direction of the pattern file; auto: y for GarmentCode JSON")       \
-    CHOICE(rotation_order, RotationOrder, xyz,                                                                      \
-           "order in which a GarmentCode panel's rotations are applied; xyz means R = Rz Ry Rx")                    \
-    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")                                        \
-    KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                            \
+#define GARMENT_KEYS(KEY, WORD, CHOICE, VEC3)                                                                        \
+    WORD(pattern, "", "pattern file (GarmentCode JSON), or a built-in pattern as builtin:tshirt")                    \
+    KEY(double, resolution, 0.01, "m", 1e-4, 0.2, "target edge length of the triangles")                             \
+    WORD(fabric, "cotton", "fabric of all panels: a preset's name or a [fabric.NAME] table")                         \
+    CHOICE(size, BodySize, M, "mannequin for which a built-in pattern is drafted; not given: the scene's own body")  \
+    CHOICE(up_axis, PatternAxis, automatic, "up direction of the pattern file; auto: y for GarmentCode JSON")        \
+    CHOICE(rotation_order, RotationOrder, xyz,                                                                       \
+           "order in which a GarmentCode panel's rotations are applied; xyz means R = Rz Ry Rx")                     \
+    CHOICE(                                                                                                          \
+        arrange, ArrangementChoice, automatic,                                                                       \
+        "panels are placed on the body by their names and seams: automatic, where the pattern gives them no place, " \
+        "or always, or never; [garment.parts] says what names do not")                                               \
+    VEC3(translation, 0, 0, 0, "m", "moves the whole garment after reading")                                         \
+    KEY(int, copies, 1, "1", 1, 64, "how many of the garment there are")                                             \
     VEC3(copy_offset, 0, 0, 1, "m", "way from one copy to the next")
 
 // [[garment.elastic]]: bands that are sewn, stretched, to edges of a panel.

@@ -109,6 +109,8 @@ EXPLICIT = scene(HANG, solver={"integrator": "velocity_verlet", "step": 0.01})
 SEW = {"garment": {"pattern": "plain.json", "resolution": 0.02},
        "solver": {"until": 0.05}, "output": dict(OUTPUT)}
 ELASTIC = {**SEW, "garment": {**SEW["garment"], "elastic": [{"panel": "left", "edges": "0"}]}}
+ON_PERSON = {**SEW, "body": [{"shape": "mannequin"}], "seams": {"max_time": 0.02}}
+ARRANGED = {**ON_PERSON, "garment": {**SEW["garment"], "parts": {"left": "left torso", "right": "right torso"}}}
 HELD_PANEL = {**SEW, "pins": {"hold": [{"panel": "left", "group": "corners"}]}}
 MOVED_PANEL = {**SEW, "pins": {"motion": [{"panel": "left", "velocity": [0.1, 0, 0]}]}}
 TURNED_PANEL = {**SEW, "garment": {"pattern": "turned.json", "resolution": 0.02}}
@@ -152,7 +154,7 @@ CASES = {
     "garment": {"pattern": (SEW, "turned.json"), "resolution": (SEW, 0.03), "fabric": (SEW, "silk"),
                 "size": (BUILTIN, "L"), "up_axis": (SEW, "z"),
                 "rotation_order": (TURNED_PANEL, "zyx"),
-                "translation": (SEW, [0, 0, 1]), "copies": (SEW, 2),
+                "arrange": (ON_PERSON, "always"), "translation": (SEW, [0, 0, 1]), "copies": (SEW, 2),
                 "copy_offset": ({**SEW, "garment": {**SEW["garment"], "copies": 2}}, [0, 0, 2])},
     "solver": {"integrator": (HANG, "implicit_euler"), "until": (HANG, 0.2), "step": (HANG, 0.01),
                "unstable_step": (EXPLICIT, "refuse"), "adaptive": (HANG, True),
@@ -195,6 +197,7 @@ CASES = {
                "checkpoint_interval": (scene(HANG, output={"keep_checkpoint": True}), 0),
                "keep_checkpoint": (HANG, True)},
     "garment.fabrics": {"left": (SEW, "silk")},
+    "garment.parts": {"left": (ARRANGED, "front skirt")},
     "sheet": {"name": (DROP, "towel"), "shape": (DROP, "mesh"), "mesh": (MESH, "smaller.obj"), "width": (DROP, 0.3),
               "height": (DROP, 0.3), "radius": (scene(sheet=[{"shape": "disc", "resolution": 5}]), 0.2),
               "resolution": (DROP, 6), "mesh_family": (DROP, "cross"), "fabric": (DROP, "silk"),

@@ -204,4 +204,15 @@ bool tube_holds(const PatternPanel& tube, const std::vector<Vec3>& points, doubl
     });
 }
 
+void move_to_mesh(Pattern& pattern, const BodyFrame& frame)
+{
+    const Vec3 origin = frame.to_file(Vec3::Zero());
+    Mat3 turn;
+    for (int axis = 0; axis < 3; ++axis) turn.col(axis) = frame.to_file(Vec3::Unit(axis)) - origin;
+    for (PatternPanel& panel : pattern.panels) {
+        panel.translation = frame.to_file(panel.translation);
+        panel.rotation = turn * panel.rotation;
+    }
+}
+
 }  // namespace selvage

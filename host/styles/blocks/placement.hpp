@@ -51,4 +51,7 @@ std::vector<Vec3> placed_outlines(const std::vector<PatternPanel>& panels);
 /// Returns whether one of the points lies within the tube of a panel that roll_around() has placed, or nearly.
 bool tube_holds(const PatternPanel& tube, const std::vector<Vec3>& points, double gap = StartGaps::panels);
 
+/// Moves a pattern from a body's own frame into that of its mesh.
+void move_to_mesh(Pattern& pattern, const BodyFrame& frame);
+
 }  // namespace selvage
