@@ -12,6 +12,11 @@ using namespace selvage;
 namespace {
 
 constexpr const char* scene_text = R"(
+[garment]
+pattern = "builtin:vest"
+[[garment.elastic]]
+panel = "front"
+edges = "0"
 [[sheet]]
 resolution = 5
 fabric = "wool 1.5"
@@ -46,8 +51,8 @@ TEST_CASE("what tells scenes apart holds every key of the schema")
     const nlohmann::json schema = nlohmann::json::parse(scene_schema_json());
     for (const auto& table : schema["tables"]) {
         std::string path = table["name"];
-        if (path.empty() || path == "garment.fabrics" || path == "fabric.NAME") continue;
-        for (const char* repeated : {"sheet", "body", "keyframe", "hold", "motion"})
+        if (path.empty() || path == "garment.fabrics" || path == "garment.parts" || path == "fabric.NAME") continue;
+        for (const char* repeated : {"sheet", "body", "keyframe", "hold", "motion", "elastic"})
             if (const std::size_t at = path.find(repeated); at != std::string::npos)
                 path.insert(at + std::string(repeated).size(), "[0]");
         for (const auto& key : table["keys"]) {
