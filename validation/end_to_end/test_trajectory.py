@@ -100,6 +100,12 @@ class Garment(unittest.TestCase):
     def path(cls, name):
         return os.path.join(cls.folder, name)
 
+    def check_panels(self, triangles, of_point, of_triangle):
+        """Where panels are sewn together a point is of one of them: its panel is that of a triangle around it."""
+        agrees = np.zeros(len(of_point), bool)
+        np.logical_or.at(agrees, triangles, of_point[triangles] == of_triangle[:, None])
+        self.assertTrue(agrees[np.unique(triangles)].all())
+
     def check_layout(self, file):
         root = file["VTKHDF"]
         np.testing.assert_array_equal(root.attrs["Version"], [2, 0])
@@ -143,11 +149,7 @@ class Garment(unittest.TestCase):
         self.assertEqual((corners.shape, corners.dtype), ((cells, 3, 2), np.float32))
         np.testing.assert_array_equal(corners.reshape(cells, 6), root["CellData/rest_corners"][()])
         np.testing.assert_allclose(np.linalg.norm(np.roll(corners, -1, 1) - corners, axis=2), lengths, atol=1e-6)
-        # Where panels are sewn together a point is of one of them: each point's panel is that of a triangle around it.
-        triangles, panel = file["selvage/triangles"][()], root["PointData/panel"][()]
-        agrees = np.zeros(points, bool)
-        np.logical_or.at(agrees, triangles, panel[triangles] == root["CellData/panel"][()][:, None])
-        self.assertTrue(agrees[np.unique(triangles)].all())
+        self.check_panels(file["selvage/triangles"][()], root["PointData/panel"][()], root["CellData/panel"][()])
 
         run = file["selvage"]
         self.assertLessEqual({"schema", "version", "scene_text", "length_unit", "up_axis"}, set(run.attrs))
