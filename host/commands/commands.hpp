@@ -1,10 +1,9 @@
 #pragma once
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "host/commands/command.hpp"
+#include "host/scene/measured_body.hpp"
 
 namespace selvage {
 
@@ -21,11 +20,9 @@ struct SceneChoice {
 /// @param default_scene  used if SCENE is not given; empty: SCENE is required
 void add_scene_options(CLI::App& command, SceneChoice& choice, const std::string& default_scene = {});
 
-/// Returns the words of a choice as an option takes them.
-inline std::vector<std::string> words_for_option(std::span<const std::string_view> words)
-{
-    return {words.begin(), words.end()};
-}
+/// Adds the options --unit, --up and --scale of an OBJ file and --set of a scene, which fill `body`, as long as it
+/// lives.
+void add_body_options(CLI::App& command, BodySource& body);
 
 /// Returns the valid subcommand or option closest to the first one on the command line that `program` does not know,
 /// or "" if none is close.

@@ -7,22 +7,19 @@
 #include "host/body/body_picture.hpp"
 #include "host/body/body_report.hpp"
 #include "host/commands/commands.hpp"
-#include "host/scene/measured_body.hpp"
 
 namespace selvage {
 namespace {
 
 struct MeasureArguments {
     BodySource body;
-    std::string unit = "m", up = "z", picture;
+    std::string picture;
     int width = 1600;
     bool json = false;
 };
 
-int measure(MeasureArguments arguments)
+int measure(const MeasureArguments& arguments)
 {
-    arguments.body.unit = *find_word<LengthUnit>(arguments.unit);
-    arguments.body.up_axis = *find_word<Axis>(arguments.up);
     const TriangleMesh mesh = load_measured_body(arguments.body);
     const BodyMeasures measures = measure_body(mesh, {arguments.body.source, 0, 0, {}});
     std::cout << (arguments.json ? measures_json(measures, arguments.body.source)
@@ -51,18 +48,7 @@ void add_measure_command(CLI::App& program, Action& chosen)
         ->add_option("-o,--output", arguments->picture,
                      "picture to write: parts, measures and landmarks, from front and side")
         ->type_name("PNG");
-    command->add_option("--unit", arguments->unit, "length unit of the OBJ file")
-        ->check(CLI::IsMember(words_for_option(words_of<LengthUnit>())))
-        ->capture_default_str();
-    command->add_option("--up", arguments->up, "up direction of the OBJ file")
-        ->check(CLI::IsMember(words_for_option(words_of<Axis>())))
-        ->capture_default_str();
-    command->add_option("--scale", arguments->body.scale, "scales the OBJ file")
-        ->check(CLI::Range(1e-4, 1e4))
-        ->capture_default_str();
-    command->add_option("--set", arguments->body.overrides, "set a key of the scene; may be repeated")
-        ->type_name("TABLE.KEY=VALUE")
-        ->allow_extra_args(false);
+    add_body_options(*command, arguments->body);
     command->add_option("--width", arguments->width, "width of the picture in pixels")
         ->check(CLI::Range(64, 16384))
         ->capture_default_str();

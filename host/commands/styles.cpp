@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "host/commands/commands.hpp"
-#include "host/scene/measured_body.hpp"
 #include "host/styles/styles.hpp"
 #include "io/atomic_file.hpp"
 #include "io/pattern/write_pattern.hpp"
@@ -14,7 +13,7 @@ namespace selvage {
 namespace {
 
 struct StylesArguments {
-    std::string style, output, unit = "m", up = "z";
+    std::string style, output;
     BodySource body{.source = "builtin:mannequin", .overrides = {}};
     bool json = false;
 };
@@ -32,14 +31,12 @@ void list_styles(bool json)
     if (json) std::cout << list.dump(2) << '\n';
 }
 
-int run_styles(StylesArguments arguments)
+int run_styles(const StylesArguments& arguments)
 {
     if (arguments.style.empty()) {
         list_styles(arguments.json);
         return 0;
     }
-    arguments.body.unit = *find_word<LengthUnit>(arguments.unit);
-    arguments.body.up_axis = *find_word<Axis>(arguments.up);
     find_style(arguments.style, "STYLE");  // a wrong name is told before a body is read
     const StyleBody body = style_body(load_measured_body(arguments.body), {arguments.body.source, 0, 0, {}});
     const std::string text = pattern_json(draft_style(arguments.style, body));
@@ -66,18 +63,7 @@ void add_styles_command(CLI::App& program, Action& chosen)
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output, "pattern to write (GarmentCode JSON); none: to stdout")
         ->type_name("FILE");
-    command->add_option("--unit", arguments->unit, "length unit of the OBJ file")
-        ->check(CLI::IsMember(words_for_option(words_of<LengthUnit>())))
-        ->capture_default_str();
-    command->add_option("--up", arguments->up, "up direction of the OBJ file")
-        ->check(CLI::IsMember(words_for_option(words_of<Axis>())))
-        ->capture_default_str();
-    command->add_option("--scale", arguments->body.scale, "scales the OBJ file")
-        ->check(CLI::Range(1e-4, 1e4))
-        ->capture_default_str();
-    command->add_option("--set", arguments->body.overrides, "set a key of the scene; may be repeated")
-        ->type_name("TABLE.KEY=VALUE")
-        ->allow_extra_args(false);
+    add_body_options(*command, arguments->body);
     command->add_flag("--json", arguments->json, "print the list as JSON");
     command->footer(
         "Example:\n"

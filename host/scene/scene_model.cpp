@@ -116,7 +116,20 @@ void arrange_panels(const Scene& scene, const std::vector<Body>& bodies, Pattern
         throw InputError(scene.place("garment.arrange"), "no person among the bodies",
                          "a [[body]] of shape \"mesh\" or \"mannequin\" on which panels can be placed");
     if (!asked && (choice == ArrangementChoice::never || !dresses || !is_unplaced(pattern))) return;
-    arrange(pattern, body_to_dress(scene, bodies), scene.panel_parts);
+    std::optional<StyleBody> person;
+    try {
+        person = body_to_dress(scene, bodies);
+    } catch (const InputError& error) {
+        if (asked) throw;
+        pattern.findings.push_back({"no_place",
+                                    {},
+                                    fmt::format("the {} panels all have the same place, and they stay there, since the "
+                                                "body is no person on whom they could be placed ({})",
+                                                pattern.panels.size(), error.what()),
+                                    "give the panels a translation, if their outlines do not say where they are"});
+        return;
+    }
+    arrange(pattern, *person, scene.panel_parts);
     pattern.findings.push_back(
         {"arranged",
          {},

@@ -15,8 +15,7 @@ namespace selvage {
 namespace {
 
 constexpr double above_shoulder =
-    0.01;                      // of a torso panel's top over the side of the neck [m]: cloth rests on it later
-constexpr double snap = 0.35;  // of a right angle's cosine: a sleeve drawn upright or level stays so
+    0.01;  // of a torso panel's top over the side of the neck [m]: cloth rests on it later
 
 /// How a panel is turned in its own plane before it is placed, which leaves its grain alone.
 struct Turn {
@@ -273,23 +272,23 @@ private:
     }
 
     // The direction in a panel's plane that points up the arm: from its middle to what is sewn to the trunk, or, of a
-    // cuff, to its sleeve.
+    // cuff, to its sleeve. Panels are drawn upright or level.
     Vec2 up_of(int p) const
     {
         Vec2 sum = Vec2::Zero();
         int count = 0;
         for (const Joint& j : joints_[p]) {
-            if (!placed_[j.panel] || (roles_[j.panel].part == roles_[p].part)) continue;
+            if (!placed_[j.panel] || roles_[j.panel].part == roles_[p].part) continue;
             sum += own_middle(p, j.own);
             ++count;
         }
         const PatternPanel& panel = pattern_.panels[p];
         const Vec2 middle(range_of(panel, 0).middle(), range_of(panel, 1).middle());
         if (count == 0 || (sum / count - middle).norm() < 1e-6) return Vec2::UnitY();
-        const Vec2 up = (sum / count - middle).normalized();
+        const Vec2 up = sum / count - middle;
         int axis = 0;
-        const double along = up.cwiseAbs().maxCoeff(&axis);
-        return along < 1 - snap ? up : Vec2(Vec2::Unit(axis) * (up[axis] < 0 ? -1 : 1));
+        up.cwiseAbs().maxCoeff(&axis);
+        return (up[axis] < 0 ? -1 : 1) * Vec2(Vec2::Unit(axis));
     }
 
     void place_on_arm(int p, bool mirrored)
@@ -355,7 +354,7 @@ std::vector<PanelRole> roles_of(const Pattern& pattern, const std::map<std::stri
                              given != parts.end() ? "`" + given->second + "`"
                                                   : "a panel without a place whose name tells no part of the body",
                              "side, face and part, such as `left front torso`, `right sleeve` or `skirt back`, as its "
-                             "name or in [garment.parts]");
+                             "name or in [garment.parts]; or garment.arrange = \"never\"");
         roles.push_back(*role);
     }
     return roles;

@@ -25,12 +25,7 @@ Pattern draft_hoody(const StyleBody& body)
     style.shoulder_extension = 0.035;
     style.armscye_drop = 0.075;
     PatternDraft garment;
-    for (const bool front : {true, false}) {
-        PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);
-        place_bodice(panel.panel, front, body);
-        garment.add(panel);
-    }
-    sew_sides(garment);
+    add_bodice(garment, style, body);
     const double cuff = m.wrist + cuff_ease, under = m.arm_length - cuff_height - 0.09;
     const double hem = add_sleeves(garment, {.ease = 0.14, .length = under, .cuff = sleeve_fullness * cuff}, body);
     add_cuffs(garment, body, cuff, cuff_height, hem + StartGaps::panels);

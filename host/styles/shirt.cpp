@@ -35,9 +35,7 @@ Pattern draft_shirt(const StyleBody& body)
     PanelDraft whole = unfolded(draft_half_bodice(true, style, body), true);
     place_bodice(whole.panel, true, body);
     for (PanelDraft* half : {&left, &right}) {
-        half->panel.rotation = whole.panel.rotation;
-        half->panel.translation = whole.panel.translation;
-        half->panel.wrap = whole.panel.wrap;
+        place_like(half->panel, whole.panel);
         garment.add(*half);
     }
     garment.add(back);

@@ -1,4 +1,5 @@
 #include "host/styles/blocks/bodice_block.hpp"
+#include "host/styles/blocks/placement.hpp"
 #include "host/styles/style_drafts.hpp"
 
 namespace selvage {
@@ -25,9 +26,7 @@ Pattern draft_tshirt(const StyleBody& body)
         PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);
         place_bodice(panel.panel, front, body);
         PanelDraft band = unfolded(draft_half_neck_band(front, style, body, band_width), front);
-        band.panel.rotation = panel.panel.rotation;
-        band.panel.translation = panel.panel.translation;
-        band.panel.wrap = panel.panel.wrap;
+        place_like(band.panel, panel.panel);
         garment.add(panel);
         garment.add(band);
         for (const std::string neck : {".left_neck", ".right_neck"})

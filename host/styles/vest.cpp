@@ -17,12 +17,7 @@ Pattern draft_vest(const StyleBody& body)
     style.shoulder_extension = -0.012;
     style.armscye_drop = 0.045;
     PatternDraft garment;
-    for (const bool front : {true, false}) {
-        PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);
-        place_bodice(panel.panel, front, body);
-        garment.add(panel);
-    }
-    sew_sides(garment);
+    add_bodice(garment, style, body);
     return garment.pattern();
 }
 

@@ -29,8 +29,8 @@ class Arrange(Drapes):
                     side["panel"] = rename(side["panel"])
         self.write("flat.json", json.dumps(pattern))
 
-    def check(self, more=""):
-        result = subprocess.run([PROGRAM, "check", self.write("scene.toml", SCENE % more)], capture_output=True,
+    def check(self, more="", scene=SCENE):
+        result = subprocess.run([PROGRAM, "check", self.write("scene.toml", scene % more)], capture_output=True,
                                 text=True, timeout=60)
         return result.returncode, result.stdout + result.stderr
 
@@ -73,6 +73,17 @@ class Arrange(Drapes):
         code, said = self.check(parts + 'A19 = "hood"\n')
         self.assertEqual(code, 2, said)
         self.assertIn("garment.parts.A19", said)
+
+    def test_panels_without_a_place_on_a_body_that_is_no_person_stay_and_are_told(self):
+        self.flat_style("vest")
+        corners, faces = ["v 0 0 0", "v 1 0 0", "v 0 1 0", "v 0 0 1"], ["f 1 3 2", "f 1 2 4", "f 1 4 3", "f 2 3 4"]
+        self.write("block.obj", corners + faces)
+        on_block = SCENE.replace('shape = "mannequin"', 'mesh = "block.obj"')
+        _, said = self.check(scene=on_block)
+        self.assertIn("warning: no_place: the 2 panels all have the same place", said)
+        code, said = self.check('arrange = "always"\n', scene=on_block)
+        self.assertEqual(code, 2, said)
+        self.assertRegex(said, r"^selvage: .*body\[0\]: .*expected a body that stands upright")
 
     def test_panels_stay_where_a_scene_wants_them_to(self):
         self.flat_style("vest")

@@ -209,7 +209,7 @@ class BadSceneFiles(BadInput):
             (SHEET + '[[body]]\nshape = "sphere"\nradius = -1\n', r"body\[0\]\.radius", "-1"),
             (SHEET + '[[body]]\nshape = "mannequin"\nstature = 170\n', r"body\[0\]\.stature", "170", "m"),
             (SHEET + '[[body]]\nshape = "mannequin"\nbust = 1.9\n', r"body\[0\]\.bust", r"1\.9"),
-            (SHEET + '[[body]]\nshape = "mannequin"\nsize = "XXXL"\n', r"body\[0\]\.size", "XXXL", '"S", "M"'),
+            (SHEET + '[[body]]\nshape = "mannequin"\nsize = "huge"\n', r"body\[0\]\.size", "huge", '"S", "M"'),
             ('[garment]\npattern = "none.json"\n', r"garment\.pattern", r"none\.json"),
             ('[garment]\npattern = "builtin:tshrt"\n', "builtin:|pattern", "tshrt", "tshirt"),
             ('[garment]\npattern = "builtin:vest"\n[garment.fabrics]\nfrnt = "silk"\n',

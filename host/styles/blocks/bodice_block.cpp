@@ -171,6 +171,16 @@ void add_cuffs(PatternDraft& garment, const StyleBody& body, double girth, doubl
     }
 }
 
+void add_bodice(PatternDraft& garment, const BodiceStyle& style, const StyleBody& body)
+{
+    for (const bool front : {true, false}) {
+        PanelDraft panel = unfolded(draft_half_bodice(front, style, body), front);
+        place_bodice(panel.panel, front, body);
+        garment.add(panel);
+    }
+    sew_sides(garment);
+}
+
 void sew_sides(PatternDraft& garment)
 {
     for (const std::string edge : {"left_shoulder", "right_shoulder", "left_side", "right_side"})

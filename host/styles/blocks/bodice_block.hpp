@@ -59,6 +59,9 @@ double add_sleeves(PatternDraft& garment, const SleeveStyle& style, const StyleB
 /// @param beyond         from the shoulder along the arm to where the cuffs start, unless that is the hand [m]
 void add_cuffs(PatternDraft& garment, const StyleBody& body, double girth, double height, double beyond);
 
+/// Adds `front` and `back` of a bodice without openings, placed and sewn at shoulders and sides.
+void add_bodice(PatternDraft& garment, const BodiceStyle& style, const StyleBody& body);
+
 /// Sews shoulders and sides of `front` and `back`.
 void sew_sides(PatternDraft& garment);
 

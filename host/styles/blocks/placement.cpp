@@ -204,6 +204,13 @@ bool tube_holds(const PatternPanel& tube, const std::vector<Vec3>& points, doubl
     });
 }
 
+void place_like(PatternPanel& panel, const PatternPanel& other)
+{
+    panel.rotation = other.rotation;
+    panel.translation = other.translation;
+    panel.wrap = other.wrap;
+}
+
 void move_to_mesh(Pattern& pattern, const BodyFrame& frame)
 {
     const Vec3 origin = frame.to_file(Vec3::Zero());

@@ -51,6 +51,9 @@ std::vector<Vec3> placed_outlines(const std::vector<PatternPanel>& panels);
 /// Returns whether one of the points lies within the tube of a panel that roll_around() has placed, or nearly.
 bool tube_holds(const PatternPanel& tube, const std::vector<Vec3>& points, double gap = StartGaps::panels);
 
+/// Puts a panel where another one is, bent alike.
+void place_like(PatternPanel& panel, const PatternPanel& other);
+
 /// Moves a pattern from a body's own frame into that of its mesh.
 void move_to_mesh(Pattern& pattern, const BodyFrame& frame);
 
